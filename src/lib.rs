@@ -1,0 +1,7 @@
+//! placeholder
+#![allow(missing_docs)]
+pub mod fields;
+pub mod frames;
+pub mod problem;
+pub mod spec;
+pub mod units;

@@ -1,0 +1,2 @@
+//! The `vuris` program.
+fn main() {}

@@ -1,0 +1,153 @@
+//! The specification's TOML file: reading, checking and writing.
+
+use super::{
+    Cordic, Modulation, Output, PRESETS, Pipeline, Sensor, Specification, Word, refused, scheme, scheme_names,
+};
+use crate::fields::{self, Fields};
+use crate::problem::{Problem, Result};
+use std::path::Path;
+
+const FORMAT: &str = "vuris-pipeline/1";
+
+/// Reads the file at `path`.
+pub(super) fn read(path: &str) -> Result<Pipeline> {
+    let text = std::fs::read_to_string(Path::new(path)).map_err(|error| {
+        let presets = PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
+        Problem::io(Path::new(path), "read the specification", &error)
+            .expected(format_args!("a file, or one of the presets {presets}"))
+            .remedy("`vuris explain --spec vuris --toml > my.toml` writes a file to start from")
+    })?;
+    Pipeline::parse(path, &text)
+}
+
+/// Reads the text of a file; the limits of each value are checked here, their interplay by [`check`].
+pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
+    let table = fields::parse(source, text)?;
+    let top = Fields::top(source, &table);
+    top.only(&["format", "name", "sensor", "modulation", "cordic", "output"])?;
+    let expected_format = format!("\"{FORMAT}\"");
+    if top.text("format", &expected_format)? != FORMAT {
+        return Err(top.refuse("format", &expected_format));
+    }
+    let name = top.text("name", NAME_RULE)?.to_owned();
+
+    let sensor = top.section("sensor")?;
+    sensor.only(&["width", "height", "adc_bits", "saturation_dn", "line_blanking_clocks"])?;
+    let adc_bits = sensor.integer("adc_bits", 8..=16)? as u32;
+    let full_scale_dn = Word::unsigned(adc_bits).max();
+    let sensor = Sensor {
+        width: sensor.integer("width", 2..=4096)? as usize,
+        height: sensor.integer("height", 1..=4096)? as usize,
+        adc_bits,
+        saturation_dn: sensor.integer_or("saturation_dn", 1..=full_scale_dn, full_scale_dn)?,
+        line_blanking_clocks: sensor.integer_or("line_blanking_clocks", 16..=65_535, 64)? as u32,
+    };
+
+    let modulation = top.section("modulation")?;
+    modulation.only(&["scheme", "frequency_hz", "frames_per_step"])?;
+    let one_of = format!("one of {}", scheme_names());
+    let modulation = Modulation {
+        scheme: scheme(modulation.text("scheme", &one_of)?)
+            .ok_or_else(|| modulation.refuse("scheme", &one_of))?,
+        frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
+        frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
+    };
+
+    let cordic = top.section("cordic")?;
+    cordic.only(&["iterations", "vector_guard_bits", "angle_guard_bits"])?;
+    let cordic = Cordic {
+        iterations: cordic.integer("iterations", 4..=30)? as u32,
+        vector_guard_bits: cordic.integer("vector_guard_bits", 0..=8)? as u32,
+        angle_guard_bits: cordic.integer("angle_guard_bits", 1..=8)? as u32,
+    };
+
+    let output = top.section("output")?;
+    output.only(&[
+        "phase_bits",
+        "amplitude_fraction_bits",
+        "offset_fraction_bits",
+        "distance_unit_m",
+        "minimum_amplitude_dn",
+    ])?;
+    let output = Output {
+        phase_bits: output.integer("phase_bits", 8..=24)? as u32,
+        amplitude_fraction_bits: output.integer("amplitude_fraction_bits", 0..=8)? as u32,
+        offset_fraction_bits: output.integer("offset_fraction_bits", 0..=8)? as u32,
+        distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
+        minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
+    };
+    Ok(Specification { name, sensor, modulation, cordic, output })
+}
+
+const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
+
+/// What only shows between fields, and what a specification made in code could get wrong.
+pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
+    let Specification { name, sensor, .. } = specification;
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
+    if !begins_well || !name.chars().all(letter) || name.len() > 32 {
+        return Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE));
+    }
+    for (field, value, allowed) in
+        [("sensor.width", sensor.width, 2..=4096), ("sensor.height", sensor.height, 1..=4096)]
+    {
+        if !allowed.contains(&value) {
+            return Err(refused(source, field, value).expected(format_args!(
+                "a whole number from {} to {}",
+                allowed.start(),
+                allowed.end()
+            )));
+        }
+    }
+    if !(8..=16).contains(&sensor.adc_bits) {
+        return Err(refused(source, "sensor.adc_bits", sensor.adc_bits).expected("8 to 16 bits"));
+    }
+    if sensor.width * sensor.height < 8 {
+        return Err(refused(source, "sensor.width * sensor.height", sensor.width * sensor.height)
+            .expected("8 pixels or more: a sum is back in its memory before its pixel's next frame"));
+    }
+    if sensor.width * sensor.height > 1 << 20 {
+        return Err(refused(source, "sensor.width * sensor.height", sensor.width * sensor.height)
+            .expected("2^20 pixels or fewer: the sums must fit block RAM"));
+    }
+    if !(1..=256).contains(&specification.modulation.frames_per_step) {
+        return Err(refused(source, "modulation.frames_per_step", specification.modulation.frames_per_step)
+            .expected("1 to 256"));
+    }
+    Ok(())
+}
+
+/// The text of a file that reads as `specification`.
+pub(super) fn write(specification: &Specification) -> String {
+    let Specification { name, sensor, modulation, cordic, output } = specification;
+    format!(
+        "format = \"{FORMAT}\"\n\
+         name = \"{name}\"\n\
+         \n[sensor]\n\
+         width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
+         \n[modulation]\n\
+         scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
+         \n[cordic]\n\
+         iterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\n\
+         \n[output]\n\
+         phase_bits = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
+         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n",
+        sensor.width,
+        sensor.height,
+        sensor.adc_bits,
+        sensor.saturation_dn,
+        sensor.line_blanking_clocks,
+        modulation.scheme.name,
+        modulation.frequency_hz,
+        modulation.frames_per_step,
+        cordic.iterations,
+        cordic.vector_guard_bits,
+        cordic.angle_guard_bits,
+        output.phase_bits,
+        output.amplitude_fraction_bits,
+        output.offset_fraction_bits,
+        output.distance_unit_m,
+        output.minimum_amplitude_dn,
+    )
+}

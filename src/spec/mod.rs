@@ -1,0 +1,169 @@
+//! The pipeline specification: the one source of truth of everything that the hardware is.
+//!
+//! A [`Pipeline`] is a specification that has been checked, with every number that follows from it
+//! ([`Derived`]). It can only be made by [`Pipeline::new`], so one that exists can be built.
+
+mod budget;
+mod derived;
+pub mod exact;
+mod file;
+mod presets;
+mod scheme;
+mod word;
+
+pub use budget::{Contribution, ErrorBudget};
+pub use derived::{Derived, Normaliser};
+pub use exact::ScaledConstant;
+pub use presets::{PRESETS, Preset};
+pub use scheme::{Irrational, SCHEMES, Scheme, scheme, scheme_names};
+pub use word::Word;
+
+use crate::frames::Geometry;
+use crate::problem::{Problem, Result};
+
+/// The sensor and its raw stream.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// Pixels a line, 2 to 4096.
+    pub width: usize,
+    /// Lines a frame, 1 to 4096.
+    pub height: usize,
+    /// Bits of a raw code, 8 to 16.
+    pub adc_bits: u32,
+    /// Least code that counts as saturated, DN; 1 to full scale.
+    pub saturation_dn: i64,
+    /// Longest pause inside a frame, clocks, 16 to 65535; a longer silence ends the frame.
+    pub line_blanking_clocks: u32,
+}
+
+/// Modulation and phase stepping.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modulation {
+    /// The row of [`SCHEMES`].
+    pub scheme: &'static Scheme,
+    /// Modulation frequency, Hz, 10 kHz to 10 GHz.
+    pub frequency_hz: f64,
+    /// Raw frames accumulated for one phase step, 1 to 256.
+    pub frames_per_step: usize,
+}
+
+/// The CORDIC.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cordic {
+    /// Iterations, 4 to 30, by the angles atan(2^−1) … atan(2^−iterations).
+    pub iterations: u32,
+    /// Bits of x and y below the phase's resolution, 0 to 8.
+    pub vector_guard_bits: u32,
+    /// Bits of the angle below the phase's resolution, 1 to 8.
+    pub angle_guard_bits: u32,
+}
+
+/// The output words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Phase, as a fraction of a turn, 8 to 24 bits.
+    pub phase_bits: u32,
+    /// Bits of the amplitude below 1 DN, 0 to 8.
+    pub amplitude_fraction_bits: u32,
+    /// Bits of the offset below 1 DN, 0 to 8.
+    pub offset_fraction_bits: u32,
+    /// Distance a code, m.
+    pub distance_unit_m: f64,
+    /// A pixel of less amplitude is marked invalid, DN.
+    pub minimum_amplitude_dn: f64,
+}
+
+/// What a user specifies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Specification {
+    /// Prefix of the Verilog modules, lower case letters, digits, `-` and `_`.
+    pub name: String,
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Modulation and phase stepping.
+    pub modulation: Modulation,
+    /// The CORDIC.
+    pub cordic: Cordic,
+    /// The output words.
+    pub output: Output,
+}
+
+/// A specification that works, and all that follows from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pipeline {
+    specification: Specification,
+    derived: Derived,
+}
+
+impl std::ops::Deref for Pipeline {
+    type Target = Specification;
+
+    fn deref(&self) -> &Specification {
+        &self.specification
+    }
+}
+
+impl Pipeline {
+    /// Checks `specification` (every limit of its fields, then what only shows when widths are derived).
+    ///
+    /// `source` is the file or preset that a refusal names.
+    pub fn new(source: &str, specification: Specification) -> Result<Self> {
+        file::check(source, &specification)?;
+        let derived = Derived::new(source, &specification)?;
+        Ok(Self { specification, derived })
+    }
+
+    /// Reads the preset or the TOML file called `name`.
+    pub fn named(name: &str) -> Result<Self> {
+        match PRESETS.iter().find(|preset| preset.name == name) {
+            Some(preset) => Self::parse(preset.name, preset.text),
+            None => file::read(name),
+        }
+    }
+
+    /// Reads the text of a specification; `source` is the name that a refusal gives.
+    pub fn parse(source: &str, text: &str) -> Result<Self> {
+        Self::new(source, file::parse(source, text)?)
+    }
+
+    /// The same hardware for another sensor, ADC, frame count, scheme or frequency: what a recording brings.
+    pub fn adapted(&self, source: &str, change: impl FnOnce(&mut Specification)) -> Result<Self> {
+        let mut specification = self.specification.clone();
+        change(&mut specification);
+        let full_scale = |bits: u32| Word::unsigned(bits).max();
+        if self.sensor.saturation_dn == full_scale(self.sensor.adc_bits) {
+            specification.sensor.saturation_dn = full_scale(specification.sensor.adc_bits);
+        }
+        Self::new(source, specification)
+    }
+
+    /// Every number that follows from the specification.
+    pub fn derived(&self) -> &Derived {
+        &self.derived
+    }
+
+    /// The worst-case errors.
+    pub fn budget(&self) -> ErrorBudget {
+        ErrorBudget::new(self)
+    }
+
+    /// The specification as the text of a TOML file, from which it can be read again.
+    pub fn to_toml(&self) -> String {
+        file::write(&self.specification)
+    }
+
+    /// The sensor's pixels.
+    pub fn geometry(&self) -> Geometry {
+        Geometry { width: self.sensor.width, height: self.sensor.height }
+    }
+
+    /// Name of the top Verilog module, and prefix of the others.
+    pub fn prefix(&self) -> String {
+        self.name.replace('-', "_")
+    }
+}
+
+/// A refusal of the specification `source` as a whole.
+fn refused(source: &str, field: &str, value: impl std::fmt::Display) -> Problem {
+    Problem::at(source, format_args!("{field} = {value}"))
+}

@@ -1,0 +1,36 @@
+//! Conversions between physical units, each written once.
+
+use fixed::types::U0F64;
+use std::f64::consts::TAU;
+
+/// Speed of light in vacuum, exact by definition of the metre (BIPM, 2019).
+pub const SPEED_OF_LIGHT_M_S: f64 = 299_792_458.0;
+
+/// A phase as a fraction of a turn in [0, 1): its wrap is the phase's wrap.
+pub type Turns = U0F64;
+
+/// The unambiguous range c / (2 f) in metres of the modulation frequency `frequency_hz` (> 0).
+pub fn unambiguous_range_m(frequency_hz: f64) -> f64 {
+    SPEED_OF_LIGHT_M_S / (2.0 * frequency_hz)
+}
+
+/// The phase 4π f d / c in radians (not wrapped) of an object at `range_m` (Drayton 2012, equation for d).
+pub fn phase_rad(range_m: f64, frequency_hz: f64) -> f64 {
+    TAU * range_m / unambiguous_range_m(frequency_hz)
+}
+
+/// `difference_rad` brought into [−π, π).
+pub fn wrap_rad(difference_rad: f64) -> f64 {
+    (difference_rad + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0
+}
+
+/// A phase word of `bits` bits as a fraction of a turn, exactly.
+pub fn turns_of_code(code: i64, bits: u32) -> Turns {
+    debug_assert!((1..=63).contains(&bits));
+    Turns::from_bits((code as u64) << (64 - bits))
+}
+
+/// A phase word of `bits` bits in radians, in [0, 2π).
+pub fn rad_of_code(code: i64, bits: u32) -> f64 {
+    turns_of_code(code, bits).to_num::<f64>() * TAU
+}
