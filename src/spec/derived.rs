@@ -117,6 +117,11 @@ impl Derived {
         let magnitude_bits = Word::unsigned(1).bits.max(Word::holding(0, largest(x).max(largest(y))).bits);
         let fraction_bits = output.phase_bits + cordic.vector_guard_bits;
         let cordic_bits = fraction_bits + 1;
+        if cordic.iterations > fraction_bits {
+            return Err(refused(source, "cordic.iterations", cordic.iterations).expected(format_args!(
+                "at most phase_bits + vector_guard_bits = {fraction_bits}: a later iteration only shifts in zeros"
+            )));
+        }
         let stages = magnitude_bits.next_power_of_two().trailing_zeros();
         let normaliser = Normaliser {
             magnitude_bits,

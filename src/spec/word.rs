@@ -44,7 +44,7 @@ impl Word {
 
     /// The greatest value.
     pub const fn max(self) -> i64 {
-        (1 << (self.bits - if self.signed { 1 } else { 0 })) - 1
+        i64::MAX >> (63 - self.bits + self.signed as u32)
     }
 
     /// Whether the register holds `value` unchanged.

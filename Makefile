@@ -1,0 +1,40 @@
+# Every target works from a fresh clone; `make setup` gets the tools.
+
+VURIS := $(or $(CARGO_TARGET_DIR),target)/release/vuris
+
+# One target after the other even under `make -j` (cargo is parallel by itself), and none
+# of its flags in the environment of the makes that run further down.
+.NOTPARALLEL:
+unexport MAKEFLAGS MFLAGS
+
+.DEFAULT_GOAL := help
+.PHONY: help setup build demo test generate picture clean
+
+help:      ## this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+
+setup:     ## find the tools, install what is missing (bash scripts/setup.sh --check only looks)
+	@bash scripts/setup.sh
+
+build:     ## build the program: target/release/vuris
+	cargo build --release --locked
+
+demo: setup build ## run the demonstration
+	$(VURIS) demo
+
+test: setup ## every check: format, lints, tests, documentation, generated files
+	cargo fmt --check
+	cargo clippy --all-targets --locked -- -D warnings
+	cargo build --release --locked
+	cargo test --release --locked
+	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --locked
+	$(VURIS) generate --spec vuris --out generated --check
+
+generate: build ## write generated/ anew
+	$(VURIS) generate --spec vuris --out generated
+
+picture: setup build ## draw the pictures in docs/images anew
+	$(VURIS) scene --out docs/images
+
+clean:     ## remove what cargo built (the tools in .tools stay)
+	cargo clean

@@ -1,0 +1,301 @@
+[[ banner ]]
+// The phase pipeline of a [[ width ]] x [[ height ]] time-of-flight camera: raw frames in, phase, amplitude, offset and distance out,
+// one pixel a clock. Scheme [[ scheme ]], [[ frames_per_set ]] raw frames a set; the set's results come out in pixel order once its last
+// frame has arrived whole, [[ latency ]] clocks after a pixel's sums are read. It does not calibrate, filter or unwrap.
+//
+//   m_axis_tdata bits | field
+[%- for field in fields %]
+//   [[ field.bits ]] | [[ field.meaning ]]
+[%- endfor %]
+//
+// Reset is synchronous, so that no release of it can be half seen; hold it low for one clock or more.
+`default_nettype none
+module [[ prefix ]] (
+  input  wire        clk_i,             // clock
+  input  wire        rst_ni,            // synchronous reset, active low
+  input  wire        s_axis_tvalid,     // a raw sample is offered
+  output wire        s_axis_tready,     // it is taken
+  input  wire [[ sample_bus ]] s_axis_tdata,      // raw code, DN, [[ sample_bits ]] bits; a larger one counts as saturated
+  input  wire        s_axis_tlast,      // last pixel of a line
+  input  wire [1:0]  s_axis_tuser,      // {first pixel of a set, first pixel of a frame}
+  output wire        m_axis_tvalid,     // a result is offered
+  input  wire        m_axis_tready,     // it is taken
+  output wire [[ result_bus ]] m_axis_tdata,      // the result, fields as above
+  output wire        m_axis_tlast,      // last pixel of a line
+  output wire        m_axis_tuser,      // first pixel of a result frame
+  output wire [31:0] sets_done_o,       // complete sets since reset
+  output wire [31:0] sets_discarded_o   // sets discarded since reset: a frame missing, too short or too long
+);
+
+  // The raw stream, registered.
+[%- if spare_sample_bits %]
+  wire                  above_range = |s_axis_tdata[[ spare_sample_range ]];
+  wire [[ sample_range ]] sample_in   = s_axis_tdata[[ sample_range ]] | {[[ sample_bits ]]{above_range}};
+[%- else %]
+  wire [[ sample_range ]] sample_in   = s_axis_tdata;
+[%- endif %]
+
+  wire        raw_valid;
+  wire        raw_ready;
+  wire        raw_start_of_set;
+  wire        raw_start_of_frame;
+  wire        raw_end_of_line;
+  wire [[ sample_range ]] raw_sample;
+
+  [[ prefix ]]_stream_register #(
+    .WIDTH([[ sample_bits ]] + 3)
+  ) u_raw_register (
+    .clk_i  (clk_i),
+    .rst_ni (rst_ni),
+    .valid_i(s_axis_tvalid),
+    .ready_o(s_axis_tready),
+    .data_i ({s_axis_tuser, s_axis_tlast, sample_in}),
+    .valid_o(raw_valid),
+    .ready_i(raw_ready),
+    .data_o ({raw_start_of_set, raw_start_of_frame, raw_end_of_line, raw_sample})
+  );
+
+  wire drain_start;
+  wire drain_busy;
+  wire [[ drain_range ]] drain_address;
+  wire take;
+  wire first_frame;
+  wire [[ sample_range ]] sample;
+  wire [[ address_range ]] address;
+  wire [[ step_range ]] step;
+
+  [[ prefix ]]_framing u_framing (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .valid_i         (raw_valid),
+    .ready_o         (raw_ready),
+    .sample_i        (raw_sample),
+    .start_of_frame_i(raw_start_of_frame),
+    .start_of_set_i  (raw_start_of_set),
+    .end_of_line_i   (raw_end_of_line),
+    .drain_busy_i    (drain_busy),
+    .drain_address_i (drain_address),
+    .drain_start_o   (drain_start),
+    .take_o          (take),
+    .sample_o        (sample),
+    .address_o       (address),
+    .step_o          (step),
+    .first_frame_o   (first_frame),
+    .sets_done_o     (sets_done_o),
+    .sets_discarded_o(sets_discarded_o)
+  );
+
+  // From here on the pipeline moves as one, unless its last word waits.
+  wire advance;
+
+  wire sums_valid;
+  wire sums_first;
+  wire sums_last;
+  wire sums_saturated;
+  wire signed [[ in_phase_range ]] sums_in_phase;
+  wire signed [[ quadrature_range ]] sums_quadrature;
+  wire [[ offset_sum_range ]] sums_offset;
+
+  [[ prefix ]]_accumulator u_accumulator (
+    .clk_i          (clk_i),
+    .rst_ni         (rst_ni),
+    .take_i         (take),
+    .sample_i       (sample),
+    .address_i      (address),
+    .step_i         (step),
+    .first_frame_i  (first_frame),
+    .drain_start_i  (drain_start),
+    .drain_busy_o   (drain_busy),
+    .drain_address_o(drain_address),
+    .advance_i      (advance),
+    .valid_o        (sums_valid),
+    .first_o        (sums_first),
+    .last_o         (sums_last),
+    .in_phase_o     (sums_in_phase),
+    .quadrature_o   (sums_quadrature),
+    .offset_o       (sums_offset),
+    .saturated_o    (sums_saturated)
+  );
+
+  wire vector_valid;
+  wire signed [[ x_range ]] vector_x;
+  wire signed [[ y_range ]] vector_y;
+  wire [[ meta_range ]] vector_meta;
+
+  [[ prefix ]]_scaling u_scaling (
+    .clk_i       (clk_i),
+    .rst_ni      (rst_ni),
+    .advance_i   (advance),
+    .valid_i     (sums_valid),
+    .in_phase_i  (sums_in_phase),
+    .quadrature_i(sums_quadrature),
+    .meta_i      ({sums_first, sums_last, sums_saturated, sums_offset}),
+    .valid_o     (vector_valid),
+    .x_o         (vector_x),
+    .y_o         (vector_y),
+    .meta_o      (vector_meta)
+  );
+
+  wire normal_valid;
+  wire [[ vector_range ]] normal_major;
+  wire [[ vector_range ]] normal_minor;
+  wire [[ shift_range ]] normal_shift;
+  wire [2:0] normal_octant;
+  wire normal_zero;
+  wire [[ meta_range ]] normal_meta;
+
+  [[ prefix ]]_normaliser u_normaliser (
+    .clk_i    (clk_i),
+    .rst_ni   (rst_ni),
+    .advance_i(advance),
+    .valid_i  (vector_valid),
+    .x_i      (vector_x),
+    .y_i      (vector_y),
+    .meta_i   (vector_meta),
+    .valid_o  (normal_valid),
+    .major_o  (normal_major),
+    .minor_o  (normal_minor),
+    .shift_o  (normal_shift),
+    .octant_o (normal_octant),
+    .zero_o   (normal_zero),
+    .meta_o   (normal_meta)
+  );
+
+  wire rotated_valid;
+  wire [[ vector_range ]] rotated_x;
+  wire [[ angle_range ]] rotated_angle;
+  wire [[ shift_range ]] rotated_shift;
+  wire [2:0] rotated_octant;
+  wire rotated_zero;
+  wire rotated_first;
+  wire rotated_last;
+  wire rotated_saturated;
+  wire [[ offset_sum_range ]] rotated_offset;
+
+  [[ prefix ]]_cordic u_cordic (
+    .clk_i    (clk_i),
+    .rst_ni   (rst_ni),
+    .advance_i(advance),
+    .valid_i  (normal_valid),
+    .major_i  (normal_major),
+    .minor_i  (normal_minor),
+    .meta_i   ({normal_zero, normal_octant, normal_shift, normal_meta}),
+    .valid_o  (rotated_valid),
+    .x_o      (rotated_x),
+    .angle_o  (rotated_angle),
+    .meta_o   ({rotated_zero, rotated_octant, rotated_shift,
+                rotated_first, rotated_last, rotated_saturated, rotated_offset})
+  );
+
+  wire [[ phase_range ]] phase;
+  wire [[ amplitude_range ]] amplitude;
+  wire [[ offset_range ]] offset;
+
+  [[ prefix ]]_phase u_phase (
+    .clk_i    (clk_i),
+    .advance_i(advance),
+    .angle_i  (rotated_angle),
+    .octant_i (rotated_octant),
+    .zero_i   (rotated_zero),
+    .phase_o  (phase)
+  );
+
+  [[ prefix ]]_amplitude u_amplitude (
+    .clk_i      (clk_i),
+    .advance_i  (advance),
+    .x_i        (rotated_x),
+    .shift_i    (rotated_shift),
+    .zero_i     (rotated_zero),
+    .amplitude_o(amplitude)
+  );
+
+  [[ prefix ]]_offset u_offset (
+    .clk_i    (clk_i),
+    .advance_i(advance),
+    .sum_i    (rotated_offset),
+    .offset_o (offset)
+  );
+
+  wire polar_valid;
+  wire polar_zero;
+  wire polar_first;
+  wire polar_last;
+  wire polar_saturated;
+
+  [[ prefix ]]_delay #(
+    .WIDTH (4),
+    .CLOCKS(2)
+  ) u_polar_delay (
+    .clk_i    (clk_i),
+    .rst_ni   (rst_ni),
+    .advance_i(advance),
+    .valid_i  (rotated_valid),
+    .data_i   ({rotated_zero, rotated_first, rotated_last, rotated_saturated}),
+    .valid_o  (polar_valid),
+    .data_o   ({polar_zero, polar_first, polar_last, polar_saturated})
+  );
+
+[%- if minimum_amplitude == 0 %]
+  // Without a vector there is no phase.
+  wire polar_usable = !polar_zero;
+[%- else %]
+  // Without a vector, or with one under the specified minimum, there is no phase.
+  wire polar_usable = !polar_zero && amplitude >= [[ minimum_amplitude_literal ]];
+[%- endif %]
+
+  wire [[ distance_range ]] distance;
+
+  [[ prefix ]]_distance u_distance (
+    .clk_i     (clk_i),
+    .advance_i (advance),
+    .phase_i   (phase),
+    .distance_o(distance)
+  );
+
+  wire result_valid;
+  wire result_first;
+  wire result_last;
+  wire result_saturated;
+  wire result_usable;
+  wire [[ offset_range ]] result_offset;
+  wire [[ amplitude_range ]] result_amplitude;
+  wire [[ phase_range ]] result_phase;
+
+  [[ prefix ]]_delay #(
+    .WIDTH ([[ result_delay_bits ]]),
+    .CLOCKS(2)
+  ) u_result_delay (
+    .clk_i    (clk_i),
+    .rst_ni   (rst_ni),
+    .advance_i(advance),
+    .valid_i  (polar_valid),
+    .data_i   ({polar_first, polar_last, polar_saturated, polar_usable, offset, amplitude, phase}),
+    .valid_o  (result_valid),
+    .data_o   ({result_first, result_last, result_saturated, result_usable,
+                result_offset, result_amplitude, result_phase})
+  );
+
+  wire result_ready;
+  wire [[ result_bus ]] result_data = {
+[%- for part in packing %]
+    [[ part ]]
+[%- endfor %]
+  };
+
+  assign advance = !result_valid || result_ready;
+
+  [[ prefix ]]_stream_register #(
+    .WIDTH([[ result_bits ]] + 2)
+  ) u_result_register (
+    .clk_i  (clk_i),
+    .rst_ni (rst_ni),
+    .valid_i(result_valid),
+    .ready_o(result_ready),
+    .data_i ({result_first, result_last, result_data}),
+    .valid_o(m_axis_tvalid),
+    .ready_i(m_axis_tready),
+    .data_o ({m_axis_tuser, m_axis_tlast, m_axis_tdata})
+  );
+
+endmodule
+`default_nettype wire

@@ -1,0 +1,13 @@
+//! Building and running the simulators, and comparing stage by stage.
+
+mod finding;
+mod lint;
+mod run;
+mod scenario;
+mod tools;
+
+pub use finding::Finding;
+pub use lint::lint;
+pub use run::{Outcome, Simulator, Traffic, simulate};
+pub use scenario::{aborted_then_good, corner_sets, faulty_stream, random_sets, resets, standard};
+pub use tools::{Tool, Verilator, find};

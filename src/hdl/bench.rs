@@ -1,0 +1,313 @@
+//! Test benches and vector files, from one table of what is compared.
+
+use super::Source;
+use super::golden::{Golden, StimulusWord};
+use super::text::{banner, finished};
+use super::top::{result_bits, result_fields};
+use crate::artifact::Artifact;
+use crate::model::PixelRecord;
+use crate::spec::{Pipeline, Word};
+use askama::Template;
+use std::fmt::Write;
+
+/// A value of every pixel, in a file of golden values.
+pub struct Vector {
+    /// Name of the file, and of the value.
+    pub name: &'static str,
+    word: fn(&Pipeline) -> Word,
+    value: fn(&PixelRecord) -> i64,
+}
+
+/// All vectors.
+pub const VECTORS: &[Vector] = &[
+    Vector { name: "in_phase", word: |p| p.derived().in_phase, value: |r| r.sums.in_phase },
+    Vector { name: "quadrature", word: |p| p.derived().quadrature, value: |r| r.sums.quadrature },
+    Vector { name: "offset_sum", word: |p| p.derived().offset_sum, value: |r| r.sums.offset },
+    Vector { name: "saturated", word: |_| Word::unsigned(1), value: |r| r.sums.saturated.into() },
+    Vector { name: "x", word: |p| p.derived().x, value: |r| r.vector.x },
+    Vector { name: "y", word: |p| p.derived().y, value: |r| r.vector.y },
+    Vector { name: "phase", word: |p| p.derived().phase, value: |r| r.phase },
+    Vector { name: "amplitude", word: |p| p.derived().amplitude, value: |r| r.amplitude },
+    Vector { name: "offset", word: |p| p.derived().offset, value: |r| r.offset },
+    Vector { name: "distance", word: |p| p.derived().distance, value: |r| r.distance },
+    Vector { name: "usable", word: |_| Word::unsigned(1), value: |r| r.valid.into() },
+];
+
+/// A place in the core where every pixel of every set passes once.
+pub struct Stage {
+    /// Its name in messages.
+    pub name: &'static str,
+    /// When a pixel passes: a Verilog expression over the core's wires.
+    strobe: &'static str,
+    /// What is compared there: the vector, and the wire that carries it. An empty wire: a field of the result word.
+    probes: &'static [(&'static str, &'static str)],
+}
+
+/// All stages, in the order in which a pixel meets them.
+pub const STAGES: &[Stage] = &[
+    Stage {
+        name: "accumulator",
+        strobe: "dut.sums_valid && dut.advance",
+        probes: &[
+            ("in_phase", "dut.sums_in_phase"),
+            ("quadrature", "dut.sums_quadrature"),
+            ("offset_sum", "dut.sums_offset"),
+            ("saturated", "dut.sums_saturated"),
+        ],
+    },
+    Stage {
+        name: "sums",
+        strobe: "dut.vector_valid && dut.advance",
+        probes: &[("x", "dut.vector_x"), ("y", "dut.vector_y")],
+    },
+    Stage {
+        name: "cordic",
+        strobe: "dut.polar_valid && dut.advance",
+        probes: &[
+            ("phase", "dut.phase"),
+            ("amplitude", "dut.amplitude"),
+            ("offset", "dut.offset"),
+            ("usable", "dut.polar_usable"),
+        ],
+    },
+    Stage {
+        name: "distance",
+        strobe: "dut.result_valid && dut.advance",
+        probes: &[("distance", "dut.distance")],
+    },
+    Stage {
+        name: "output",
+        strobe: "m_axis_tvalid && m_axis_tready",
+        probes: &[
+            ("phase", ""),
+            ("amplitude", ""),
+            ("offset", ""),
+            ("distance", ""),
+            ("usable", ""),
+            ("saturated", ""),
+        ],
+    },
+];
+
+/// A value compared at a stage.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Channel {
+    /// `stage.vector`.
+    pub name: String,
+    /// Index into [`STAGES`].
+    pub stage: usize,
+    /// Name of the vector.
+    pub vector: &'static str,
+    /// Its word.
+    pub word: Word,
+    /// Its wire.
+    probe: String,
+    /// Its lowest bit among the taps' values.
+    low: usize,
+}
+
+/// Bits that the taps give each channel.
+const TAP_BITS: usize = 64;
+
+/// Every channel of `pipeline`'s benches.
+pub fn channels(pipeline: &Pipeline) -> Vec<Channel> {
+    let fields = result_fields(pipeline);
+    let mut channels = Vec::new();
+    for (stage, Stage { name, probes, .. }) in STAGES.iter().enumerate() {
+        for &(vector, wire) in *probes {
+            let field = fields.iter().find(|field| field.name == vector);
+            let probe = match (wire, field) {
+                ("", Some(field)) => format!("m_axis_tdata[{} +: {}]", field.low, field.bits),
+                _ => wire.to_owned(),
+            };
+            let word = VECTORS.iter().find(|row| row.name == vector).map(|row| (row.word)(pipeline));
+            channels.push(Channel {
+                name: format!("{name}.{vector}"),
+                stage,
+                vector,
+                word: word.expect("every probe names a vector"),
+                probe,
+                low: channels.len() * TAP_BITS,
+            });
+        }
+    }
+    channels
+}
+
+/// A vector, as the bench's template takes it.
+struct VectorRow {
+    name: &'static str,
+    bits: u32,
+}
+
+/// A channel, as the benches' templates take it.
+struct ChannelRow {
+    name: String,
+    stage: usize,
+    vector: &'static str,
+    vector_number: usize,
+    bits: u32,
+    spare_bits: u32,
+    probe: String,
+    low: usize,
+}
+
+struct StageRow {
+    name: &'static str,
+    number: usize,
+    strobe: &'static str,
+    channels: Vec<ChannelRow>,
+}
+
+/// What all three bench files are rendered from.
+struct Bench {
+    banner: String,
+    prefix: String,
+    stages: Vec<StageRow>,
+    vectors: Vec<VectorRow>,
+    stage_count: usize,
+    channel_bits: usize,
+    records: usize,
+    stimulus: usize,
+    epochs: usize,
+    pixels: usize,
+    width: usize,
+    silence: u32,
+    sets_done: u32,
+    sets_discarded: u32,
+    sample_bus: u32,
+    result_bits: u32,
+}
+
+#[derive(Template)]
+#[template(path = "taps.v", escape = "none")]
+struct Taps<'a> {
+    bench: &'a Bench,
+}
+
+#[derive(Template)]
+#[template(path = "testbench.v", escape = "none")]
+struct Testbench<'a> {
+    bench: &'a Bench,
+}
+
+#[derive(Template)]
+#[template(path = "harness.cpp", escape = "none")]
+struct Harness<'a> {
+    bench: &'a Bench,
+}
+
+fn bench(source: &Source, golden: &Golden) -> Bench {
+    let pipeline = source.pipeline;
+    let channels = channels(pipeline);
+    let stages = STAGES
+        .iter()
+        .enumerate()
+        .map(|(number, stage)| StageRow {
+            name: stage.name,
+            number,
+            strobe: stage.strobe,
+            channels: channels
+                .iter()
+                .filter(|channel| channel.stage == number)
+                .map(|channel| ChannelRow {
+                    name: channel.name.clone(),
+                    stage: channel.stage,
+                    vector: channel.vector,
+                    vector_number: VECTORS.iter().position(|row| row.name == channel.vector).unwrap_or(0),
+                    bits: channel.word.bits,
+                    spare_bits: TAP_BITS as u32 - channel.word.bits,
+                    probe: channel.probe.clone(),
+                    low: channel.low,
+                })
+                .collect(),
+        })
+        .collect();
+    let vectors = VECTORS
+        .iter()
+        .map(|vector| {
+            let word = (vector.word)(pipeline);
+            VectorRow { name: vector.name, bits: word.bits }
+        })
+        .collect();
+    Bench {
+        banner: String::new(),
+        prefix: pipeline.prefix(),
+        stages,
+        vectors,
+        stage_count: STAGES.len(),
+        channel_bits: channels.len() * TAP_BITS,
+        records: golden.records.len(),
+        stimulus: golden.stimulus.len(),
+        epochs: golden.epochs.len(),
+        pixels: pipeline.geometry().pixels(),
+        width: pipeline.sensor.width,
+        silence: pipeline.sensor.line_blanking_clocks,
+        sets_done: golden.counters.0,
+        sets_discarded: golden.counters.1,
+        sample_bus: pipeline.derived().sample.bits.next_multiple_of(8),
+        result_bits: result_bits(pipeline),
+    }
+}
+
+/// The benches' files, for the vectors of `golden`.
+pub fn bench_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
+    let mut bench = bench(source, golden);
+    let mut file = |path: &str, purpose: &str, render: fn(&Bench) -> askama::Result<String>| {
+        bench.banner = banner(source, purpose);
+        Artifact::new(path, finished(render(&bench)))
+    };
+    vec![
+        file("tb/bench_taps.v", "The core with its stages' values led out, for both benches.", |bench| {
+            Taps { bench }.render()
+        }),
+        file("tb/testbench.v", "Self-checking test bench for any Verilog simulator.", |bench| {
+            Testbench { bench }.render()
+        }),
+        file("tb/harness.cpp", "Self-checking test bench for Verilator.", |bench| Harness { bench }.render()),
+    ]
+}
+
+/// One value a line, in hexadecimal, as `$readmemh` reads it.
+fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
+    let digits = bits.div_ceil(4) as usize;
+    let mut text = format!("// {note}\n");
+    for value in values {
+        // Writing into a string cannot fail.
+        let _ = writeln!(text, "{value:0digits$x}");
+    }
+    text
+}
+
+/// The vectors' files.
+pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
+    let pipeline = source.pipeline;
+    let note = |what: String| format!("Generated by `vuris generate --spec {}`: {what}", source.spec);
+    let stimulus_note = note(
+        "{operation, end of line, start of set, start of frame, code[15:0]}; operations: 1 silence, 2 reset"
+            .to_owned(),
+    );
+    let stimulus = golden.stimulus.iter().map(|&StimulusWord(word)| u64::from(word));
+    let epochs = golden.epochs.iter().map(|&records| records as u64);
+    let mut artifacts = vec![
+        Artifact::new("vectors/stimulus.hex", hex(&stimulus_note, 20, stimulus)),
+        Artifact::new(
+            "vectors/epochs.hex",
+            hex(&note("results due before each reset, and at the end".to_owned()), 32, epochs),
+        ),
+    ];
+    for vector in VECTORS {
+        let word = (vector.word)(pipeline);
+        let kind = if word.signed { "signed" } else { "unsigned" };
+        let text = hex(
+            &note(format!(
+                "{}, {} bits {kind}, a line a pixel in the order of the results",
+                vector.name, word.bits
+            )),
+            word.bits,
+            golden.records.iter().map(|record| word.pattern((vector.value)(record))),
+        );
+        artifacts.push(Artifact::new(format!("vectors/{}.hex", vector.name), text));
+    }
+    artifacts
+}

@@ -1,0 +1,102 @@
+//! Golden vectors: a scenario of the raw stream, and what the model says to it.
+
+use crate::frames::RawSets;
+use crate::model::{Beat, PipelineModel, PixelRecord, StreamEvent, beats_of_set};
+use crate::spec::Pipeline;
+
+/// A named part of a scenario.
+#[derive(Debug, Clone)]
+pub struct Segment {
+    /// What it tries, for messages.
+    pub name: String,
+    /// What happens on the stream.
+    pub events: Vec<StreamEvent>,
+}
+
+impl Segment {
+    /// All sets of `raw`, one after the other.
+    pub fn of_sets(name: &str, raw: &RawSets) -> Self {
+        let events = (0..raw.sets()).flat_map(|set| beats_of_set(raw, set)).map(StreamEvent::Beat).collect();
+        Self { name: name.to_owned(), events }
+    }
+}
+
+/// What drives the core, in order.
+#[derive(Debug, Clone, Default)]
+pub struct Scenario {
+    /// Its parts.
+    pub segments: Vec<Segment>,
+}
+
+/// One line of the stimulus: a beat, or an operation of the bench.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StimulusWord(pub u32);
+
+/// Marks an operation instead of a beat.
+const OPERATION: u32 = 8 << 16;
+
+impl From<StreamEvent> for StimulusWord {
+    /// `{operation, end of line, start of set, start of frame, code[15:0]}`; operations: 1 silence, 2 reset.
+    fn from(event: StreamEvent) -> Self {
+        Self(match event {
+            StreamEvent::Silence => OPERATION | 1,
+            StreamEvent::Reset => OPERATION | 2,
+            StreamEvent::Beat(Beat { code, start_of_frame, start_of_set, end_of_line }) => {
+                u32::from(end_of_line) << 18
+                    | u32::from(start_of_set) << 17
+                    | u32::from(start_of_frame) << 16
+                    | code.min(0xffff)
+            }
+        })
+    }
+}
+
+/// A scenario with the model's answer.
+#[derive(Debug, Clone, Default)]
+pub struct Golden {
+    /// The stimulus, with a last silence that lets the last set out.
+    pub stimulus: Vec<StimulusWord>,
+    /// Every pixel that comes out, in order.
+    pub records: Vec<PixelRecord>,
+    /// For every set that comes out: the name of its segment, and its number among those of the segment.
+    pub sets: Vec<(String, usize)>,
+    /// Number of records due before each reset, and at the end.
+    pub epochs: Vec<usize>,
+    /// Complete and discarded sets since the last reset.
+    pub counters: (u32, u32),
+}
+
+impl Golden {
+    /// Runs the model over `scenario`.
+    pub fn new(pipeline: &Pipeline, scenario: &Scenario) -> Self {
+        let mut golden = Self::default();
+        let mut model = PipelineModel::new(pipeline);
+        // A set comes out at the event after its last pixel, which may already be another segment's.
+        let mut open = (String::new(), 0);
+        for segment in &scenario.segments {
+            let mut number = 0;
+            for &event in &segment.events {
+                golden.advance(&mut model, event, &open);
+                if let StreamEvent::Beat(Beat { start_of_set: true, .. }) = event {
+                    open = (segment.name.clone(), number);
+                    number += 1;
+                }
+            }
+        }
+        golden.advance(&mut model, StreamEvent::Silence, &open);
+        golden.epochs.push(golden.records.len());
+        golden.counters = model.counters();
+        golden
+    }
+
+    fn advance(&mut self, model: &mut PipelineModel, event: StreamEvent, open: &(String, usize)) {
+        self.stimulus.push(event.into());
+        if let Some(records) = model.advance(event) {
+            self.records.extend(records);
+            self.sets.push(open.clone());
+        }
+        if event == StreamEvent::Reset {
+            self.epochs.push(self.records.len());
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Template context of the top module, and the layout of its result word.
+
+use super::Source;
+use super::arithmetic::Meta;
+use super::control::Counters;
+use super::text::{literal, range};
+use crate::spec::Pipeline;
+use askama::Template;
+
+/// One field of the result word; every field starts on a byte.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ResultField {
+    /// Its name, and the name of the wire that it carries.
+    pub name: &'static str,
+    /// Its lowest bit in `m_axis_tdata`.
+    pub low: u32,
+    /// Its width.
+    pub bits: u32,
+    /// Its unit.
+    pub meaning: String,
+}
+
+fn bytes(bits: u32) -> u32 {
+    bits.next_multiple_of(8)
+}
+
+/// The result word's fields, lowest first.
+pub fn result_fields(pipeline: &Pipeline) -> Vec<ResultField> {
+    let (derived, output) = (pipeline.derived(), &pipeline.output);
+    let fields = [
+        ("phase", derived.phase.bits, format!("phase, turns / 2^{}", output.phase_bits)),
+        (
+            "amplitude",
+            derived.amplitude.bits,
+            format!("amplitude, DN / 2^{}", output.amplitude_fraction_bits),
+        ),
+        ("offset", derived.offset.bits, format!("offset, DN / 2^{}", output.offset_fraction_bits)),
+        ("distance", derived.distance.bits, format!("distance, {} m", output.distance_unit_m)),
+        ("usable", 1, "flag: there is a phase (a vector, and not too weak a one)".to_owned()),
+        ("saturated", 1, "flag: a sample of any frame was saturated".to_owned()),
+    ];
+    let mut low = 0;
+    fields
+        .into_iter()
+        .map(|(name, bits, meaning)| {
+            let field = ResultField { name, low, bits, meaning };
+            // The flags share a byte.
+            low += if bits == 1 { 1 } else { bytes(bits) };
+            field
+        })
+        .collect()
+}
+
+/// Width of the result word, a whole number of bytes.
+pub fn result_bits(pipeline: &Pipeline) -> u32 {
+    let last = result_fields(pipeline).pop().map_or(0, |field| field.low + field.bits);
+    bytes(last)
+}
+
+struct FieldRow {
+    bits: String,
+    meaning: String,
+}
+
+#[derive(Template)]
+#[template(path = "pipeline.v", escape = "none")]
+struct Top {
+    banner: String,
+    prefix: String,
+    width: usize,
+    height: usize,
+    scheme: &'static str,
+    frames_per_set: usize,
+    latency: u32,
+    fields: Vec<FieldRow>,
+    sample_bus: String,
+    sample_bits: u32,
+    spare_sample_bits: bool,
+    spare_sample_range: String,
+    sample_range: String,
+    result_bus: String,
+    result_bits: u32,
+    packing: Vec<String>,
+    result_delay_bits: u32,
+    drain_range: String,
+    address_range: String,
+    step_range: String,
+    in_phase_range: String,
+    quadrature_range: String,
+    offset_sum_range: String,
+    x_range: String,
+    y_range: String,
+    meta_range: String,
+    vector_range: String,
+    shift_range: String,
+    angle_range: String,
+    phase_range: String,
+    amplitude_range: String,
+    offset_range: String,
+    distance_range: String,
+    minimum_amplitude: i64,
+    minimum_amplitude_literal: String,
+}
+
+/// The parts of the result word's concatenation, highest first, gaps filled with zeros.
+fn packing(pipeline: &Pipeline) -> Vec<String> {
+    let mut parts = Vec::new();
+    let mut top = result_bits(pipeline);
+    for field in result_fields(pipeline).iter().rev() {
+        let gap = top - field.low - field.bits;
+        if gap > 0 {
+            parts.push(format!("{gap}'d0,"));
+        }
+        // The distance is the delay's own output; the others have waited for it.
+        let wire =
+            if field.name == "distance" { "distance".to_owned() } else { format!("result_{}", field.name) };
+        parts.push(format!("{wire}{}", if field.low > 0 { "," } else { "" }));
+        top = field.low;
+    }
+    parts
+}
+
+pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String> {
+    let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
+    let counters = Counters::new(source);
+    let meta = Meta::new(source);
+    let sample_bits = derived.sample.bits;
+    let rows: Vec<FieldRow> = result_fields(pipeline)
+        .into_iter()
+        .map(|field| FieldRow {
+            bits: format!("{:>3}:{:<3}", field.low + field.bits - 1, field.low),
+            meaning: field.meaning,
+        })
+        .collect();
+    Top {
+        banner,
+        prefix: pipeline.prefix(),
+        width: pipeline.sensor.width,
+        height: pipeline.sensor.height,
+        scheme: pipeline.modulation.scheme.name,
+        frames_per_set: derived.frames_per_set,
+        latency: derived.latency_clocks,
+        fields: rows,
+        sample_bus: range(bytes(sample_bits)),
+        sample_bits,
+        spare_sample_bits: !sample_bits.is_multiple_of(8),
+        spare_sample_range: format!("[{}:{sample_bits}]", bytes(sample_bits) - 1),
+        sample_range: range(sample_bits),
+        result_bus: range(result_bits(pipeline)),
+        result_bits: result_bits(pipeline),
+        packing: packing(pipeline),
+        result_delay_bits: 4 + derived.offset.bits + derived.amplitude.bits + derived.phase.bits,
+        drain_range: range(counters.address_bits + 1),
+        address_range: range(counters.address_bits),
+        step_range: range(counters.step_bits),
+        in_phase_range: range(derived.in_phase.bits),
+        quadrature_range: range(derived.quadrature.bits),
+        offset_sum_range: range(derived.offset_sum.bits),
+        x_range: range(derived.x.bits),
+        y_range: range(derived.y.bits),
+        meta_range: range(meta.vector_bits),
+        vector_range: range(derived.cordic_x.bits),
+        shift_range: range(meta.shift_bits),
+        angle_range: range(derived.angle.bits),
+        phase_range: range(derived.phase.bits),
+        amplitude_range: range(derived.amplitude.bits),
+        offset_range: range(derived.offset.bits),
+        distance_range: range(derived.distance.bits),
+        minimum_amplitude: derived.minimum_amplitude,
+        minimum_amplitude_literal: literal(derived.amplitude.bits, derived.minimum_amplitude),
+    }
+    .render()
+}

@@ -1,0 +1,15 @@
+//! Amplitude: the CORDIC's x freed from its gain, the scheme's gain and the normaliser's shift.
+
+use crate::spec::Pipeline;
+
+/// The amplitude in 2^−fraction DN, rounded to nearest; 0 where there is no vector (`zero`).
+pub fn amplitude(pipeline: &Pipeline, x: i64, shift: u32, zero: bool) -> i64 {
+    let derived = pipeline.derived();
+    let amplitude = if zero { 0 } else { derived.amplitude_factor.apply(x, shift) };
+    debug_assert!(
+        derived.amplitude.contains(amplitude),
+        "amplitude {amplitude} leaves {}",
+        derived.amplitude
+    );
+    amplitude
+}

@@ -1,0 +1,151 @@
+//! Framing: which pixel of which phase step a beat is, and whether its set can be trusted.
+//!
+//! A set is complete when all its frames have arrived, each with every line of the right length, and the stream then
+//! either starts another frame or falls silent. Anything else discards the set; the core waits for the next start of set.
+
+use super::stream::{Beat, StreamEvent};
+use crate::spec::Pipeline;
+
+/// Where an accepted beat belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PixelSlot {
+    /// Pixel number within the frame.
+    pub address: usize,
+    /// Phase step within the set.
+    pub step: usize,
+    /// Whether this is the set's first frame, whose samples replace what the memory holds.
+    pub first_frame: bool,
+}
+
+/// What an event of the stream led to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FramingEvent {
+    /// A complete set may be drained (before the beat's own sample is added).
+    pub commit: bool,
+    /// The beat's place, where it belongs to a set.
+    pub slot: Option<PixelSlot>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    /// After reset or a fault: waiting for a start of set, whatever else arrives.
+    Lost,
+    /// Between sets: only a start of set may follow.
+    Idle,
+    /// Within a set.
+    Active,
+    /// All pixels have arrived: the next beat must start a frame.
+    Closing,
+}
+
+/// The framing state machine.
+#[derive(Debug, Clone)]
+pub struct Framing {
+    width: usize,
+    height: usize,
+    frames_per_step: usize,
+    steps: usize,
+    state: State,
+    column: usize,
+    row: usize,
+    repeat: usize,
+    step: usize,
+    /// Sets that were complete, modulo 2^32.
+    pub sets_done: u32,
+    /// Sets that were discarded, modulo 2^32.
+    pub sets_discarded: u32,
+}
+
+impl Framing {
+    /// The state after reset.
+    pub fn new(pipeline: &Pipeline) -> Self {
+        Self {
+            width: pipeline.sensor.width,
+            height: pipeline.sensor.height,
+            frames_per_step: pipeline.modulation.frames_per_step,
+            steps: pipeline.modulation.scheme.steps(),
+            state: State::Lost,
+            column: 0,
+            row: 0,
+            repeat: 0,
+            step: 0,
+            sets_done: 0,
+            sets_discarded: 0,
+        }
+    }
+
+    /// Advances by one event.
+    pub fn advance(&mut self, event: StreamEvent) -> FramingEvent {
+        match event {
+            StreamEvent::Reset => {
+                *self = Self { state: State::Lost, sets_done: 0, sets_discarded: 0, ..self.at_start() };
+                FramingEvent::default()
+            }
+            StreamEvent::Silence => {
+                FramingEvent { commit: self.state == State::Closing && self.commit(), slot: None }
+            }
+            StreamEvent::Beat(beat) => self.beat(beat),
+        }
+    }
+
+    fn at_start(&self) -> Self {
+        Self { column: 0, row: 0, repeat: 0, step: 0, ..self.clone() }
+    }
+
+    fn commit(&mut self) -> bool {
+        self.state = State::Idle;
+        self.sets_done = self.sets_done.wrapping_add(1);
+        true
+    }
+
+    fn discard(&mut self) {
+        self.sets_discarded = self.sets_discarded.wrapping_add(1);
+    }
+
+    fn beat(&mut self, beat: Beat) -> FramingEvent {
+        let commit = self.state == State::Closing && beat.start_of_frame && self.commit();
+        let start = beat.start_of_set && beat.start_of_frame;
+        if start {
+            if self.state == State::Active {
+                self.discard();
+            }
+            *self = Self { state: State::Active, ..self.at_start() };
+        }
+        let in_place = beat.start_of_frame == (self.column == 0 && self.row == 0)
+            && (start || !beat.start_of_set)
+            && beat.end_of_line == (self.column == self.width - 1);
+        let slot = match self.state {
+            State::Active if in_place => Some(self.take()),
+            State::Lost => None,
+            State::Active | State::Idle | State::Closing => {
+                self.discard();
+                self.state = State::Lost;
+                None
+            }
+        };
+        FramingEvent { commit, slot }
+    }
+
+    /// The slot of a beat that is in place, and one step onwards.
+    fn take(&mut self) -> PixelSlot {
+        let slot = PixelSlot {
+            address: self.row * self.width + self.column,
+            step: self.step,
+            first_frame: self.step == 0 && self.repeat == 0,
+        };
+        for (count, limit) in [
+            (&mut self.column, self.width),
+            (&mut self.row, self.height),
+            (&mut self.repeat, self.frames_per_step),
+            (&mut self.step, self.steps),
+        ] {
+            *count += 1;
+            if *count < limit {
+                return slot;
+            }
+            *count = 0;
+        }
+        self.state = State::Closing;
+        slot
+    }
+}

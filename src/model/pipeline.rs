@@ -1,0 +1,78 @@
+//! The whole pipeline: from the raw stream to results, with what every stage held on the way.
+
+use super::accumulator::{Accumulator, Sums};
+use super::framing::Framing;
+use super::normaliser::normalise;
+use super::scaling::{Vector, scale};
+use super::stream::StreamEvent;
+use super::{amplitude, cordic, distance, offset, phase};
+use crate::spec::Pipeline;
+
+/// What the stages held for one pixel of one set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PixelRecord {
+    /// Accumulator: the sums as they drain.
+    pub sums: Sums,
+    /// Scaling: the vector.
+    pub vector: Vector,
+    /// Phase, a fraction of a turn in the phase word.
+    pub phase: i64,
+    /// Amplitude, in its unit.
+    pub amplitude: i64,
+    /// Offset, in its unit.
+    pub offset: i64,
+    /// Distance, in its unit.
+    pub distance: i64,
+    /// Whether there is a phase: a vector, and not weaker than the specification's minimum.
+    pub valid: bool,
+}
+
+/// A pixel's results from its sums.
+pub fn pixel(pipeline: &Pipeline, sums: Sums) -> PixelRecord {
+    let vector = scale(pipeline, sums);
+    let normalised = normalise(pipeline, vector);
+    let rotated = cordic(pipeline, normalised);
+    let phase = phase(pipeline, rotated.angle, normalised.octant, normalised.zero);
+    let amplitude = amplitude(pipeline, rotated.x, normalised.shift, normalised.zero);
+    PixelRecord {
+        sums,
+        vector,
+        phase,
+        amplitude,
+        offset: offset(pipeline, sums.offset),
+        distance: distance(pipeline, phase),
+        valid: !normalised.zero && amplitude >= pipeline.derived().minimum_amplitude,
+    }
+}
+
+/// The core as a whole, event by event.
+#[derive(Debug, Clone)]
+pub struct PipelineModel<'a> {
+    pipeline: &'a Pipeline,
+    framing: Framing,
+    accumulator: Accumulator<'a>,
+}
+
+impl<'a> PipelineModel<'a> {
+    /// The core after reset.
+    pub fn new(pipeline: &'a Pipeline) -> Self {
+        Self { pipeline, framing: Framing::new(pipeline), accumulator: Accumulator::new(pipeline) }
+    }
+
+    /// Advances by one event; the pixels of a set, in order, where the event completes one.
+    pub fn advance(&mut self, event: StreamEvent) -> Option<Vec<PixelRecord>> {
+        let outcome = self.framing.advance(event);
+        let set = outcome
+            .commit
+            .then(|| self.accumulator.sums().iter().map(|&sums| pixel(self.pipeline, sums)).collect());
+        if let (Some(slot), StreamEvent::Beat(beat)) = (outcome.slot, event) {
+            self.accumulator.add(slot, beat.code);
+        }
+        set
+    }
+
+    /// Complete and discarded sets since reset.
+    pub fn counters(&self) -> (u32, u32) {
+        (self.framing.sets_done, self.framing.sets_discarded)
+    }
+}

@@ -1,0 +1,234 @@
+[[ bench.banner ]]
+// Drives the core with vectors/stimulus.hex, with random pauses on the input and random stops on the output, and compares
+// every stage with vectors/*.hex. Plain Verilog-2005: run it from the folder that holds vectors/, in any simulator, with
+// rtl/*.v, tb/bench_taps.v and this file.
+//   +seed=N        seed of pauses and stops (1)
+//   +pause=P       percent of clocks without input (25)
+//   +stop=P        percent of clocks without output (25)
+//   +dump=FILE     waveform, from clock +dump_from=C to +dump_to=C
+// The last line is `PASS values=… clocks=…` or `FAIL mismatches=…`.
+`timescale 1ns / 1ps
+`default_nettype none
+module testbench;
+
+  localparam RECORDS  = [[ bench.records ]];
+  localparam STIMULUS = [[ bench.stimulus ]];
+  localparam EPOCHS   = [[ bench.epochs ]];
+  localparam PIXELS   = [[ bench.pixels ]];
+  localparam WIDTH    = [[ bench.width ]];
+  localparam SILENCE  = [[ bench.silence ]];  // clocks of silence that end a frame
+  localparam STAGES   = [[ bench.stage_count ]];
+  localparam LIMIT    = 10;  // mismatches that are printed
+  localparam PATIENCE = 20000 + 8 * PIXELS;  // clocks without any result that end the run
+
+  reg clk   = 1'b0;
+  reg rst_n = 1'b0;
+  always #5 clk = !clk;
+
+  reg  [19:0] stimulus [0:STIMULUS-1];
+  reg  [31:0] epoch_end [0:EPOCHS-1];
+[%- for vector in bench.vectors %]
+  reg  [[ "[" ]][[ vector.bits - 1 ]]:0] expected_[[ vector.name ]] [0:RECORDS-1];
+[%- endfor %]
+
+  reg         s_valid = 1'b0;
+  wire        s_ready;
+  reg  [[ "[" ]][[ bench.sample_bus - 1 ]]:0] s_data = 0;
+  reg         s_last = 1'b0;
+  reg  [1:0]  s_user = 2'd0;
+  wire        m_valid;
+  reg         m_ready = 1'b0;
+  wire [[ "[" ]][[ bench.result_bits - 1 ]]:0] m_data;
+  wire        m_last;
+  wire        m_user;
+  wire [31:0] sets_done;
+  wire [31:0] sets_discarded;
+  wire [STAGES-1:0] strobe;
+  wire [[ "[" ]][[ bench.channel_bits - 1 ]]:0] values;
+
+  bench_taps taps (
+    .clk_i           (clk),
+    .rst_ni          (rst_n),
+    .s_axis_tvalid   (s_valid),
+    .s_axis_tready   (s_ready),
+    .s_axis_tdata    (s_data),
+    .s_axis_tlast    (s_last),
+    .s_axis_tuser    (s_user),
+    .m_axis_tvalid   (m_valid),
+    .m_axis_tready   (m_ready),
+    .m_axis_tdata    (m_data),
+    .m_axis_tlast    (m_last),
+    .m_axis_tuser    (m_user),
+    .sets_done_o     (sets_done),
+    .sets_discarded_o(sets_discarded),
+    .strobe_o        (strobe),
+    .values_o        (values)
+  );
+
+  integer seed;
+  integer pause;
+  integer stop;
+  integer dump_from;
+  integer dump_to;
+  reg [8*256-1:0] dump;
+  reg             dumping = 1'b0;
+
+  initial begin
+    if (!$value$plusargs("seed=%d", seed)) seed = 1;
+    if (!$value$plusargs("pause=%d", pause)) pause = 25;
+    if (!$value$plusargs("stop=%d", stop)) stop = 25;
+    if (!$value$plusargs("dump_from=%d", dump_from)) dump_from = 0;
+    if (!$value$plusargs("dump_to=%d", dump_to)) dump_to = 2147483647;
+    if ($value$plusargs("dump=%s", dump)) dumping = 1'b1;
+    $readmemh("vectors/stimulus.hex", stimulus);
+    $readmemh("vectors/epochs.hex", epoch_end);
+[%- for vector in bench.vectors %]
+    $readmemh("vectors/[[ vector.name ]].hex", expected_[[ vector.name ]]);
+[%- endfor %]
+    if (dumping) begin
+      $dumpfile(dump);
+      $dumpvars(0, testbench.taps);
+      $dumpoff;
+    end
+  end
+
+  integer clocks     = 0;
+  integer idle       = 0;  // clocks since anything happened
+  integer compared   = 0;
+  integer mismatches = 0;
+  integer word       = 0;  // next line of the stimulus
+  integer epoch      = 0;
+  integer wait_for   = 4;  // clocks of reset or silence left
+  integer run        = 0;  // length of the present pause
+  integer record [0:STAGES-1];  // next record of each stage
+  integer pixel;
+  integer stage;
+  reg        resetting = 1'b1;
+  reg        finished  = 1'b0;
+  reg [19:0] next;
+  reg        held_valid = 1'b0;
+  reg [[ "[" ]][[ bench.result_bits + 1 ]]:0] held = 0;
+
+  initial for (stage = 0; stage < STAGES; stage = stage + 1) record[stage] = 0;
+
+  task surplus(input integer at);
+    begin
+      mismatches = mismatches + 1;
+      if (mismatches <= LIMIT) $display("SURPLUS stage=%0d record=%0d clock=%0d", at, record[at], clocks);
+    end
+  endtask
+
+  task report(input [8*32-1:0] name, input integer number, input [63:0] wanted, input [63:0] found);
+    begin
+      mismatches = mismatches + 1;
+      if (mismatches <= LIMIT) begin
+        $display("MISMATCH channel=%0s record=%0d set=%0d pixel=%0d clock=%0d expected=%0h actual=%0h (binary %b, %b)",
+                 name, number, number / PIXELS, number % PIXELS, clocks, wanted, found, wanted, found);
+      end
+    end
+  endtask
+
+  // The checks, with what the core shows before this clock's edge.
+  always @(posedge clk) begin
+    clocks = clocks + 1;
+    idle   = idle + 1;
+    if (dumping && clocks == dump_from) $dumpon;
+    if (dumping && clocks == dump_to) $dumpoff;
+
+    if (held_valid && rst_n && (!m_valid || {m_user, m_last, m_data} !== held)) begin
+      mismatches = mismatches + 1;
+      if (mismatches <= LIMIT) $display("UNSTABLE clock=%0d: the result changed while it waited", clocks);
+    end
+    held_valid = m_valid === 1'b1 && !m_ready && rst_n;
+    held       = {m_user, m_last, m_data};
+    if (s_valid && s_ready) idle = 0;
+
+    if (rst_n) begin
+[%- for stage in bench.stages %]
+      if (strobe[ [[- stage.number -]] ] !== 1'b0) begin  // [[ stage.name ]]
+        idle = 0;
+        if (record[ [[- stage.number -]] ] >= epoch_end[epoch]) surplus([[ stage.number ]]);
+        else begin
+[%- for channel in stage.channels %]
+          if (values[ [[- channel.low ]] +: [[ channel.bits ]]] !== expected_[[ channel.vector ]][record[ [[- stage.number -]] ]])
+            report("[[ channel.name ]]", record[ [[- stage.number -]] ], {[[ channel.spare_bits ]]'d0, expected_[[ channel.vector ]][record[ [[- stage.number -]] ]]},
+                   values[ [[- channel.low ]] +: 64]);
+[%- endfor %]
+          compared = compared + [[ stage.channels.len() ]];
+[%- if loop.last %]
+          pixel = record[ [[- stage.number -]] ] % PIXELS;
+          if (m_user !== (pixel == 0)) report("output.first", record[ [[- stage.number -]] ], pixel == 0, m_user);
+          if (m_last !== (pixel % WIDTH == WIDTH - 1))
+            report("output.last", record[ [[- stage.number -]] ], pixel % WIDTH == WIDTH - 1, m_last);
+          compared = compared + 2;
+[%- endif %]
+        end
+        record[ [[- stage.number -]] ] = record[ [[- stage.number -]] ] + 1;
+      end
+[%- endfor %]
+    end
+
+    if (!finished && ((word == STIMULUS && wait_for == 0 && record[STAGES-1] >= RECORDS && idle > 2 * SILENCE + 64)
+                      || idle > PATIENCE || mismatches > LIMIT)) begin
+      finished = 1'b1;
+      for (stage = 0; stage < STAGES; stage = stage + 1) begin
+        if (record[stage] < RECORDS) begin
+          mismatches = mismatches + 1;
+          $display("MISSING stage=%0d record=%0d of %0d clock=%0d", stage, record[stage], RECORDS, clocks);
+        end
+      end
+      if (word != STIMULUS) begin
+        mismatches = mismatches + 1;
+        $display("STUCK stimulus=%0d of %0d clock=%0d: the input was not taken", word, STIMULUS, clocks);
+      end else if (sets_done !== 32'd[[ bench.sets_done ]] || sets_discarded !== 32'd[[ bench.sets_discarded ]]) begin
+        mismatches = mismatches + 1;
+        $display("COUNTERS sets_done=%0d expected=[[ bench.sets_done ]] sets_discarded=%0d expected=[[ bench.sets_discarded ]] clock=%0d",
+                 sets_done, sets_discarded, clocks);
+      end
+      compared = compared + 2;
+      if (mismatches == 0) $display("PASS values=%0d clocks=%0d", compared, clocks);
+      else $display("FAIL mismatches=%0d clocks=%0d", mismatches, clocks);
+      $finish;
+    end
+
+    // The source, after the checks. A beat stays offered until it is taken.
+    if (wait_for > 0) begin
+      wait_for = wait_for - 1;
+      if (wait_for == 0 && resetting) begin
+        rst_n     <= 1'b1;
+        resetting  = 1'b0;
+      end
+    end else if (!s_valid || s_ready) begin
+      s_valid <= 1'b0;
+      if (word < STIMULUS) begin
+        next = stimulus[word];
+        if (next[19]) begin
+          word = word + 1;
+          if (next[15:0] == 16'd1) wait_for = SILENCE + 8;
+          else begin
+            wait_for  = 4;
+            resetting = 1'b1;
+            rst_n    <= 1'b0;
+            for (stage = 0; stage < STAGES; stage = stage + 1) begin
+              if (record[stage] > epoch_end[epoch]) surplus(stage);
+              record[stage] = epoch_end[epoch];
+            end
+            epoch = epoch + 1;
+          end
+        end else if (run < 12 && $unsigned($random(seed)) % 100 < pause) begin
+          run = run + 1;
+        end else begin
+          run      = 0;
+          word     = word + 1;
+          s_valid <= 1'b1;
+          s_data  <= next[15:0];
+          s_last  <= next[18];
+          s_user  <= next[17:16];
+        end
+      end
+    end
+    m_ready <= $unsigned($random(seed)) % 100 >= stop;
+  end
+
+endmodule
+`default_nettype wire
