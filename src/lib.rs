@@ -3,5 +3,6 @@
 pub mod fields;
 pub mod frames;
 pub mod problem;
+pub mod reference;
 pub mod spec;
 pub mod units;
