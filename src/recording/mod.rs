@@ -26,7 +26,9 @@ use crate::frames::{Geometry, RawSets};
 use crate::problem::{Problem, Result};
 use std::path::{Path, PathBuf};
 
-/// What the folder of a recording must hold, for refusals.
+/// The files without which there is no recording.
+const REQUIRED: [&str; 3] = ["recording.toml", "frames.npy", "sets.csv"];
+/// The same in words, for refusals.
 const CONTENTS: &str = "a recording: a folder with recording.toml, frames.npy and sets.csv";
 
 /// A recording that has been read and checked: shapes agree, numbers are finite, codes fit the ADC.
@@ -64,12 +66,13 @@ impl Recording {
     /// # Errors
     /// Any file that is missing, malformed, out of range or in disagreement with another one.
     pub fn open(folder: &Path) -> Result<Self> {
-        if !folder.is_dir() {
-            let found = if folder.exists() { "is not a folder" } else { "there is no such folder" };
-            return Err(Problem::in_file(folder, found).expected(CONTENTS));
+        let metadata = std::fs::metadata(folder)
+            .map_err(|error| Problem::io(folder, "open", &error).expected(CONTENTS))?;
+        if !metadata.is_dir() {
+            return Err(Problem::in_file(folder, "is not a folder").expected(CONTENTS));
         }
-        if !folder.join("recording.toml").exists() {
-            return Err(not_a_recording(folder));
+        if let Some(missing) = REQUIRED.iter().find(|file| !folder.join(file).exists()) {
+            return Err(not_a_recording(folder, missing));
         }
         let description = description::read(&folder.join("recording.toml"))?;
         let frames_per_set = description.steps_rad.len();
@@ -159,9 +162,9 @@ fn name_of(folder: &Path) -> String {
     name.map_or_else(|| "recording".to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
-/// The refusal of a folder without `recording.toml`; a campaign is the likely mistake.
-fn not_a_recording(folder: &Path) -> Problem {
-    let problem = Problem::in_file(folder, "recording.toml is missing").expected(CONTENTS);
+/// The refusal of a folder without the file `missing`; a campaign is the likely mistake.
+fn not_a_recording(folder: &Path, missing: &str) -> Problem {
+    let problem = Problem::in_file(folder, format_args!("{missing} is missing")).expected(CONTENTS);
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut recordings: Vec<String> = entries
         .filter(|entry| entry.path().join("recording.toml").exists())
