@@ -7,5 +7,8 @@ pub mod frames;
 pub mod hdl;
 pub mod model;
 pub mod problem;
+pub mod ranging;
+pub mod recording;
+pub mod reference;
 pub mod spec;
 pub mod units;

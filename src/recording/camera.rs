@@ -1,0 +1,179 @@
+//! `camera.toml`: what the simulation of a camera knows, and which effects it takes into account.
+
+use crate::fields::{self, Fields};
+use crate::frames::Geometry;
+use crate::problem::{Problem, Result};
+use std::path::{Path, PathBuf};
+
+/// In [`Camera::included_physics`]: light falls off during a set as the target moves.
+pub const INVERSE_SQUARE_FALLOFF: &str = "inverse_square_falloff";
+/// In [`Camera::included_physics`]: the phase follows the recorded velocity from frame to frame.
+pub const AXIAL_MOTION: &str = "axial_motion_of_recorded_velocity";
+
+/// A camera as its simulation knows it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Camera {
+    /// The sensor's pixels, each side 1 to 65536.
+    pub geometry: Geometry,
+    /// Bits of a raw code, 8 to 16.
+    pub adc_bits: u32,
+    /// Code at no light, DN, 0 to 65535.
+    pub pedestal_dn: f64,
+    /// Electrons a code, above 0.
+    pub gain_e_per_dn: f64,
+    /// Standard deviation of the read noise, electrons.
+    pub read_noise_e: f64,
+    /// Focal length in pixels: radial distance = position · √(1 + (x² + y²)/focal_length²).
+    pub focal_length_px: f64,
+    /// Relative amplitude of harmonic m = 1, 2, … of the correlation waveform; the first is 1.
+    pub correlation_amplitude: Vec<f64>,
+    /// Phase of the same harmonics, rad; the first is 0.
+    pub correlation_phase_rad: Vec<f64>,
+    /// Effects that the simulation includes beside the above.
+    pub included_physics: Vec<String>,
+}
+
+impl Camera {
+    /// The camera of the recording in `folder` and the file that describes it: the folder's own, else its campaign's.
+    pub(super) fn of_recording(folder: &Path) -> Result<Option<(Self, PathBuf)>> {
+        // `..` and `.` have no parent by name.
+        let campaign = match folder.file_name() {
+            Some(_) => folder.parent().map(Path::to_owned).unwrap_or_default(),
+            None => folder.join(".."),
+        };
+        let candidates = [folder.join("camera.toml"), campaign.join("camera.toml")];
+        match candidates.into_iter().find(|path| path.exists()) {
+            Some(path) => Ok(Some((Self::read(&path)?, path))),
+            None => Ok(None),
+        }
+    }
+
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and a field that is missing, of another type, or out of its range.
+    pub fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read_to_string(path).map_err(|error| Problem::io(path, "read", &error))?;
+        Self::parse(&path.display().to_string(), &text)
+    }
+
+    /// Reads the text of the file called `file`.
+    ///
+    /// # Errors
+    /// As [`Camera::read`].
+    pub fn parse(file: &str, text: &str) -> Result<Self> {
+        let table = fields::parse(file, text)?;
+        let top = Fields::top(file, &table);
+        let sensor = top.section("sensor")?;
+        let (correlation_amplitude, correlation_phase_rad) = match top.optional_section("correlation")? {
+            Some(correlation) => waveform(file, &correlation)?,
+            // What is not in the file is not in the simulation: a correlation without harmonics.
+            None => (vec![1.0], vec![0.0]),
+        };
+        let included_physics = match top.optional_section("physics")? {
+            None => vec![AXIAL_MOTION, INVERSE_SQUARE_FALLOFF],
+            Some(physics) if physics.has("included") => physics.texts("included")?,
+            Some(physics) => return Err(physics.refuse("included", "a list of strings, [] for no effect")),
+        };
+        Ok(Self {
+            geometry: Geometry {
+                width: sensor.integer("width", 1..=65_536)? as usize,
+                height: sensor.integer("height", 1..=65_536)? as usize,
+            },
+            adc_bits: sensor.integer("adc_bits", 8..=16)? as u32,
+            pedestal_dn: sensor.number("pedestal_dn", 0.0..=65_535.0, "DN")?,
+            gain_e_per_dn: sensor.number("gain_e_per_dn", 1e-9..=1e9, "electrons a code")?,
+            read_noise_e: sensor.number("read_noise_e", 0.0..=1e9, "electrons")?,
+            focal_length_px: sensor.number("focal_length_px", 1e-3..=1e9, "pixels")?,
+            correlation_amplitude,
+            correlation_phase_rad,
+            included_physics: included_physics.into_iter().map(str::to_owned).collect(),
+        })
+    }
+
+    /// Whether the simulation includes `effect`, such as [`INVERSE_SQUARE_FALLOFF`].
+    pub fn includes(&self, effect: &str) -> bool {
+        self.included_physics.iter().any(|included| included == effect)
+    }
+
+    /// Radial over axial distance, √(1 + (x² + y²)/focal_length²), x and y in pixels from the sensor's centre.
+    pub fn obliquity(&self, row: usize, column: usize) -> f64 {
+        let from_centre = |index: usize, size: usize| index as f64 - (size as f64 - 1.0) / 2.0;
+        let x = from_centre(column, self.geometry.width) / self.focal_length_px;
+        let y = from_centre(row, self.geometry.height) / self.focal_length_px;
+        (1.0 + x * x + y * y).sqrt()
+    }
+
+    /// The text of a file that reads as this camera.
+    pub fn to_toml(&self) -> String {
+        format!(
+            "[sensor]\nwidth = {}\nheight = {}\nadc_bits = {}\npedestal_dn = {:?}\ngain_e_per_dn = {:?}\n\
+             read_noise_e = {:?}\nfocal_length_px = {:?}\n\
+             \n[correlation]\namplitude = {:?}\nphase_rad = {:?}\n\n[physics]\nincluded = {}\n",
+            self.geometry.width,
+            self.geometry.height,
+            self.adc_bits,
+            self.pedestal_dn,
+            self.gain_e_per_dn,
+            self.read_noise_e,
+            self.focal_length_px,
+            self.correlation_amplitude,
+            self.correlation_phase_rad,
+            toml::Value::from(self.included_physics.clone()),
+        )
+    }
+}
+
+/// Amplitude and phase of the correlation's harmonics, the fundamental being the unit of both.
+fn waveform(file: &str, correlation: &Fields) -> Result<(Vec<f64>, Vec<f64>)> {
+    let amplitude =
+        correlation.numbers("amplitude", "finite numbers, one for each harmonic from the first on")?;
+    let phase_rad =
+        correlation.numbers("phase_rad", "finite numbers in rad, one for each harmonic from the first on")?;
+    if amplitude.len() != phase_rad.len() {
+        return Err(Problem::at(
+            file,
+            format_args!(
+                "correlation.amplitude has {} numbers, correlation.phase_rad {}",
+                amplitude.len(),
+                phase_rad.len()
+            ),
+        )
+        .expected("one of each for every harmonic"));
+    }
+    if amplitude.first() != Some(&1.0) {
+        return Err(
+            correlation.refuse("amplitude", "1.0 as the first: amplitudes relative to the fundamental")
+        );
+    }
+    if phase_rad.first() != Some(&0.0) {
+        return Err(correlation.refuse("phase_rad", "0.0 as the first: phases relative to the fundamental"));
+    }
+    Ok((amplitude, phase_rad))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MINIMAL: &str = "[sensor]\nwidth = 3\nheight = 5\nadc_bits = 12\npedestal_dn = 64\n\
+                           gain_e_per_dn = 12.0\nread_noise_e = 36.0\nfocal_length_px = 2.0\n";
+
+    #[test]
+    fn absent_sections_are_a_sinusoid_and_both_effects() {
+        let camera = Camera::parse("camera.toml", MINIMAL).unwrap();
+        assert_eq!(camera.correlation_amplitude, [1.0]);
+        assert!(camera.includes(AXIAL_MOTION) && camera.includes(INVERSE_SQUARE_FALLOFF));
+        let none = Camera::parse("camera.toml", &format!("{MINIMAL}[physics]\nincluded = []")).unwrap();
+        assert!(!none.includes(AXIAL_MOTION) && !none.includes(INVERSE_SQUARE_FALLOFF));
+        assert_eq!(Camera::parse("again", &none.to_toml()).unwrap(), none);
+    }
+
+    #[test]
+    fn obliquity_is_one_at_the_centre_and_pythagoras_elsewhere() {
+        let camera = Camera::parse("camera.toml", MINIMAL).unwrap();
+        assert_eq!(camera.obliquity(2, 1), 1.0);
+        assert_eq!(camera.obliquity(0, 1), 2f64.sqrt());
+        assert!((camera.obliquity(4, 2) - (1.0f64 + 1.0 + 0.25).sqrt()).abs() < 1e-15);
+    }
+}

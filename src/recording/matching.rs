@@ -1,0 +1,244 @@
+//! Which hardware fits a recording: sensor, ADC, frequency and frames a step are the recording's, the rest is the
+//! specification's.
+//!
+//! The phase scheme is recognised by the frames' phase steps. A set's phase offset is not among them: the hardware adds
+//! nothing to a phase, so whoever reads the phase adds the offset.
+
+use super::Recording;
+use crate::problem::{Problem, Result};
+use crate::spec::{Pipeline, SCHEMES, Scheme, Specification, Word};
+use crate::units::wrap_rad;
+
+/// Steps that differ by less, modulo 2π, are the same, rad: recordings are written with 12 decimals, and no phase
+/// shifter is set more finely.
+pub const STEP_TOLERANCE_RAD: f64 = 1e-6;
+
+/// Steps that a refusal lists before it says how many there are.
+const MOST_STEPS_SHOWN: usize = 40;
+
+/// Which scheme a recording is processed with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SchemeChoice {
+    /// The specification's; a recording of other steps is refused.
+    #[default]
+    Specified,
+    /// The first of [`SCHEMES`] that has the recording's steps.
+    Auto,
+}
+
+/// The pipeline of `base` for `recording`, and one sentence for each thing that differs from `base`.
+///
+/// # Errors
+/// The recording's phase steps are another scheme's (or no scheme's), or the adapted pipeline cannot work.
+pub fn pipeline_for(
+    recording: &Recording,
+    base: &Pipeline,
+    choice: SchemeChoice,
+) -> Result<(Pipeline, Vec<String>)> {
+    let (scheme, frames_per_step) = scheme_of(recording, base.modulation.scheme, choice)?;
+    let source = format!("{} adapted to {}", base.name, recording.folder.display());
+    let pipeline = base.adapted(&source, |specification| {
+        let Specification { sensor, modulation, .. } = specification;
+        sensor.width = recording.geometry().width;
+        sensor.height = recording.geometry().height;
+        sensor.adc_bits = recording.adc_bits();
+        // A threshold beyond the new full scale would never be met.
+        sensor.saturation_dn = sensor.saturation_dn.min(Word::unsigned(sensor.adc_bits).max());
+        modulation.scheme = scheme;
+        modulation.frames_per_step = frames_per_step;
+        modulation.frequency_hz = recording.frequency_hz;
+    })?;
+    let sentences = differences(recording, base, &pipeline);
+    Ok((pipeline, sentences))
+}
+
+/// One sentence for each thing in which `pipeline` differs from `base`.
+fn differences(recording: &Recording, base: &Pipeline, pipeline: &Pipeline) -> Vec<String> {
+    let adc_source = if recording.camera.is_some() { "camera.toml" } else { "the largest code" };
+    let size = |pipeline: &Pipeline| format!("{} x {}", pipeline.sensor.width, pipeline.sensor.height);
+    type Shown<'a> = &'a dyn Fn(&Pipeline) -> String;
+    let rows: [(&str, &str, Shown); 6] = [
+        ("sensor", "frames.npy", &size),
+        ("ADC", adc_source, &|p| format!("{} bits", p.sensor.adc_bits)),
+        ("saturation", "the ADC's bits", &|p| format!("{} DN", p.sensor.saturation_dn)),
+        ("scheme", "the phase steps", &|p| p.modulation.scheme.name.to_owned()),
+        ("frames per step", "the phase steps", &|p| p.modulation.frames_per_step.to_string()),
+        ("modulation", "recording.toml", &|p| format!("{} MHz", p.modulation.frequency_hz / 1e6)),
+    ];
+    rows.into_iter()
+        .map(|(what, source, shown)| (what, source, shown(pipeline), shown(base)))
+        .filter(|(_, _, here, specified)| here != specified)
+        .map(|(what, source, here, specified)| format!("{what} {here} from {source} instead of {specified}"))
+        .collect()
+}
+
+/// The scheme of `recording` and its frames a step.
+fn scheme_of(
+    recording: &Recording,
+    specified: &'static Scheme,
+    choice: SchemeChoice,
+) -> Result<(&'static Scheme, usize)> {
+    let steps_rad = &recording.steps_rad;
+    let file = recording.folder.join("recording.toml");
+    let found = SCHEMES.iter().find_map(|scheme| Some((scheme, frames_per_step(scheme, steps_rad)?)));
+    let wanted = match choice {
+        SchemeChoice::Auto => found,
+        SchemeChoice::Specified => frames_per_step(specified, steps_rad).map(|frames| (specified, frames)),
+    };
+    match (wanted, found) {
+        (Some(scheme), _) => Ok(scheme),
+        (None, Some((other, _))) => Err(Problem::in_file(
+            &file,
+            format_args!("its phase steps are those of the scheme {}", other.name),
+        )
+        .expected(format_args!(
+            "those of the specified scheme {}: {}",
+            specified.name,
+            shown_rad(&scheme_steps_rad(specified))
+        ))
+        .remedy(format_args!("`--scheme auto` picks {}", other.name))),
+        (None, None) => {
+            let known = SCHEMES.iter().map(|scheme| {
+                let steps = shown_rad(&scheme_steps_rad(scheme));
+                format!("\n    {}: {} frames a step count, {steps}", scheme.name, scheme.steps())
+            });
+            Err(Problem::in_file(
+                &file,
+                format_args!("no scheme has its phase steps {}", shown_rad(steps_rad)),
+            )
+            .expected(format_args!(
+                "modulo 2 pi, within {STEP_TOLERANCE_RAD:e} rad, one of the following, each step held for the same \
+                 number of consecutive frames{}",
+                known.collect::<String>()
+            ))
+            .remedy("select or reorder the frames of each set, or record with the steps of a scheme"))
+        }
+    }
+}
+
+/// How many consecutive frames each step of `scheme` is held for, where `steps_rad` are its steps.
+fn frames_per_step(scheme: &Scheme, steps_rad: &[f64]) -> Option<usize> {
+    let frames = steps_rad.len() / scheme.steps();
+    let whole = frames > 0 && steps_rad.len().is_multiple_of(scheme.steps());
+    let same = |(n, step_rad): (usize, &f64)| {
+        wrap_rad(step_rad - (n / frames) as f64 * scheme.step_rad()).abs() < STEP_TOLERANCE_RAD
+    };
+    (whole && steps_rad.iter().enumerate().all(same)).then_some(frames)
+}
+
+fn scheme_steps_rad(scheme: &Scheme) -> Vec<f64> {
+    (0..scheme.steps()).map(|n| n as f64 * scheme.step_rad()).collect()
+}
+
+/// Steps for a refusal.
+fn shown_rad(steps_rad: &[f64]) -> String {
+    let shown: Vec<_> =
+        steps_rad.iter().take(MOST_STEPS_SHOWN).map(|step_rad| format!("{step_rad:.6}")).collect();
+    let rest = if steps_rad.len() > MOST_STEPS_SHOWN { ", ..." } else { "" };
+    format!("[{}{rest}] rad ({} frames)", shown.join(", "), steps_rad.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::{Geometry, RawSets};
+    use crate::recording::{Kind, SetRow};
+    use std::f64::consts::{FRAC_PI_2, TAU};
+    use std::path::PathBuf;
+
+    fn recording(steps_rad: Vec<f64>, largest: u32) -> Recording {
+        let geometry = Geometry { width: 24, height: 18 };
+        let mut codes = vec![100; geometry.pixels() * steps_rad.len()];
+        codes[7] = largest;
+        Recording {
+            folder: PathBuf::from("bench"),
+            name: "bench".to_owned(),
+            kind: Kind::Rail,
+            frequency_hz: 30e6,
+            raw: RawSets::new(geometry, steps_rad.len(), codes).unwrap(),
+            steps_rad,
+            frame_period_s: 0.025,
+            sets: vec![SetRow::default()],
+            extra_columns: vec![],
+            mask: None,
+            frame_times_s: None,
+            camera: None,
+        }
+    }
+
+    fn steps(name: &str, frames_per_step: usize, extra_rad: f64) -> Vec<f64> {
+        let steps_rad = scheme_steps_rad(crate::spec::scheme(name).unwrap());
+        let each = |step_rad: f64| std::iter::repeat_n(step_rad + extra_rad, frames_per_step);
+        steps_rad.into_iter().flat_map(each).collect()
+    }
+
+    #[test]
+    fn every_scheme_is_recognised_with_any_frames_a_step_and_modulo_two_pi() {
+        let base = Pipeline::named("vuris").unwrap();
+        for scheme in SCHEMES {
+            for frames_per_step in [1, 3] {
+                for extra_rad in [0.0, TAU, -2.0 * TAU, 4e-7] {
+                    let recording = recording(steps(scheme.name, frames_per_step, extra_rad), 4000);
+                    let (pipeline, _) = pipeline_for(&recording, &base, SchemeChoice::Auto).unwrap();
+                    assert_eq!(pipeline.modulation.scheme.name, scheme.name);
+                    assert_eq!(pipeline.modulation.frames_per_step, frames_per_step);
+                    assert_eq!(pipeline.derived().frames_per_set, recording.steps_rad.len());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn each_difference_is_one_sentence() {
+        let base = Pipeline::named("vuris-four-frame").unwrap();
+        let mut recording = recording(steps("wdft", 2, 0.0), 16_000);
+        recording.frequency_hz = 80.652e6;
+        let (pipeline, sentences) = pipeline_for(&recording, &base, SchemeChoice::Auto).unwrap();
+        assert_eq!(
+            sentences,
+            [
+                "sensor 24 x 18 from frames.npy instead of 160 x 120",
+                "ADC 14 bits from the largest code instead of 12 bits",
+                "saturation 16383 DN from the ADC's bits instead of 4095 DN",
+                "scheme wdft from the phase steps instead of four_frame",
+                "frames per step 2 from the phase steps instead of 1",
+                "modulation 80.652 MHz from recording.toml instead of 30 MHz",
+            ]
+        );
+        let (_, again) = pipeline_for(&recording, &pipeline, SchemeChoice::Specified).unwrap();
+        assert_eq!(again, Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_threshold_of_saturation_stays_within_the_adc() {
+        let base = Pipeline::named("vuris-four-frame").unwrap();
+        let base = Pipeline::parse("test", &base.to_toml().replace("_dn = 4095", "_dn = 4000")).unwrap();
+        let wide = recording(steps("four_frame", 1, 0.0), 16_000);
+        let (pipeline, _) = pipeline_for(&wide, &base, SchemeChoice::Specified).unwrap();
+        assert_eq!(pipeline.sensor.saturation_dn, 4000);
+        let narrow = recording(steps("four_frame", 1, 0.0), 200);
+        let (pipeline, sentences) = pipeline_for(&narrow, &base, SchemeChoice::Specified).unwrap();
+        assert_eq!(pipeline.sensor.saturation_dn, 255);
+        assert!(sentences.iter().any(|sentence| sentence.starts_with("saturation 255 DN")), "{sentences:?}");
+    }
+
+    #[test]
+    fn steps_of_another_scheme_or_of_none_are_refused() {
+        let base = Pipeline::named("vuris").unwrap();
+        let refusal = |steps_rad: Vec<f64>, choice| {
+            pipeline_for(&recording(steps_rad, 4000), &base, choice).unwrap_err().to_string()
+        };
+        let other = refusal(steps("four_frame", 1, 0.0), SchemeChoice::Specified);
+        for part in ["recording.toml", "four_frame", "wdft", "`--scheme auto`"] {
+            assert!(other.contains(part), "{other}");
+        }
+        // Two cycles of four frames: the steps are right, but a step's frames are not consecutive.
+        let cycles = (0..8).map(|n| f64::from(n) * FRAC_PI_2).collect();
+        for steps_rad in [cycles, steps("wdft", 1, 2e-6), vec![0.0], vec![0.0, 1.0, 2.0]] {
+            let none = refusal(steps_rad, SchemeChoice::Auto);
+            for part in ["recording.toml", "no scheme", "four_frame", "wdft", "0.000", "consecutive"] {
+                assert!(none.contains(part), "{none}");
+            }
+        }
+    }
+}
