@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 pub mod fields;
 pub mod frames;
+pub mod physics;
 pub mod problem;
 pub mod spec;
 pub mod units;
