@@ -36,16 +36,18 @@ pub struct Surface {
 
 impl Scene {
     /// A room for a camera of about 60° × 46°, ranges from about 1.6 to 4.4 m: a checked back wall, a floor, a
-    /// slanted panel, a box and a sphere, all still, and a larger sphere in front that approaches at 1 m/s.
+    /// slanted panel, a box and a sphere, all still, and a box in front that approaches at 1 m/s.
     ///
     /// Ranges stay below the 5 m that 30 MHz can tell apart, and cover more than two of the four-frame error's four cycles.
+    /// The moving box faces the camera as a target on a rail does. At 25 ms a frame its four-frame error is a typical one:
+    /// 30 mm RMS, as over all distances from 1 to 4.5 m (it is 40 mm at the worst of them).
     pub fn room() -> Self {
         let still = |shape, reflectivity| Object { shape, reflectivity, check_m: None, velocity_m_s: 0.0 };
         let panel = |centre_m, u, v| Shape::Panel { centre_m, half_edges_m: [u, v] };
         let wall = panel([0.0, 0.0, 3.6], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]);
         let floor = panel([0.0, 1.0, 2.0], [4.0, 0.0, 0.0], [0.0, 0.0, 2.0]);
         let slanted = panel([-1.15, -0.7, 2.75], [0.4, 0.0, 0.55], [0.0, 0.42, 0.0]);
-        let approaching = Shape::Sphere { centre_m: [0.12, -0.12, 2.2], radius_m: 0.52 };
+        let approaching = Shape::Box { low_m: [-0.4, -0.55, 1.9], high_m: [0.55, 0.2, 2.2] };
         Self {
             objects: vec![
                 Object { check_m: Some(0.45), ..still(wall, 0.8) },
@@ -53,7 +55,7 @@ impl Scene {
                 still(slanted, 0.6),
                 still(Shape::Box { low_m: [0.75, 0.35, 2.45], high_m: [1.2, 1.0, 2.9] }, 0.5),
                 still(Shape::Sphere { centre_m: [-0.95, 0.58, 2.6], radius_m: 0.4 }, 0.5),
-                Object { velocity_m_s: -1.0, ..still(approaching, 0.5) },
+                Object { velocity_m_s: -1.0, ..still(approaching, 0.45) },
             ],
         }
     }

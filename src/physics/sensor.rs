@@ -39,13 +39,13 @@ pub struct Light {
 impl Sensor {
     /// The size, the converter and the full well of a camera like the paper's: 160 × 120 pixels, 12 bits, and a lens of 60° × 46°.
     ///
-    /// The paper gives the size; everything else is an assumption. The light makes an amplitude of about
-    /// 350 DN on the far wall of [`super::Scene::room`], a phase noise of about 5 mrad or 4 mm at 30 MHz.
+    /// The paper gives the size; everything else is an assumption. The light makes amplitudes of about
+    /// 300 and 600 DN on the far wall's checks in [`super::Scene::room`], a phase noise of about 5 and 3 mrad.
     pub fn vuris() -> Self {
         Self {
             geometry: Geometry { width: 160, height: 120 },
             focal_length_px: 140.0,
-            amplitude_1m_e: 560_000.0,
+            amplitude_1m_e: 1_000_000.0,
             constant_ratio: 1.25,
             ambient_e: 10_000.0,
             pedestal_dn: 64.0,
