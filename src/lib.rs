@@ -4,5 +4,6 @@ pub mod fields;
 pub mod frames;
 pub mod physics;
 pub mod problem;
+pub mod report;
 pub mod spec;
 pub mod units;
