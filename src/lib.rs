@@ -1,14 +1,57 @@
-//! placeholder
-#![allow(missing_docs)]
+//! Phase pipelines for indirect time-of-flight cameras: a bit-accurate model, the Verilog generated from the same
+//! specification, and the proof that both agree.
+//!
+//! # The picture
+//! ```text
+//!            spec ─────────────┬───────────────────────────┐
+//!             │                │                           │
+//!             ▼                ▼                           ▼
+//! physics ─► frames ◄─ recording        hdl ─► generated/{rtl, tb, vectors}
+//!             │                          ▲ golden values         │
+//!             ▼                          │                       ▼
+//!           model (integers) ────────────┘              cosim: Verilator, Icarus
+//!             │
+//!             ▼
+//!     sums ─► phase ─► distance
+//! ```
+//! A [`spec::Pipeline`] says everything that the hardware is; every other number is derived from it once, in
+//! [`spec::Derived`], with the proof in its docs. [`model`], [`hdl`], the benches and the tables all read that.
+//!
+//! # Map
+//! | module | what it holds |
+//! | --- | --- |
+//! | [`spec`] | the pipeline specification, phase schemes, words, exact constants, derived widths, error budget |
+//! | [`frames`], [`units`] | the vocabulary that travels, and conversions |
+//! | [`model`] | the hardware in integers, one file a module |
+//! | [`hdl`] | Verilog, benches and golden vectors from templates |
+//! | [`cosim`] | building and running the simulators, comparing stage by stage |
+//! | [`recording`] | the recording format, read and written |
+//! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
+//! | [`physics`] | the forward simulator of raw frames |
+//! | [`report`] | tables and pictures |
+//! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
+//! | [`cli`] | one file a command |
+//!
+//! # What is absent on purpose
+//! - **No floating point in [`model`]**, no I/O, nothing that can fail. Constants come from [`spec::exact`].
+//! - **[`model`] and [`physics`] never see each other**: they meet in frames. [`hdl`] never sees [`physics`].
+//! - **Only [`cli`], [`recording`], [`artifact`], [`cosim`] and the reading of a specification touch files or processes**;
+//!   only [`cli`] knows clap, only [`hdl`] and [`report`] may know askama.
+//!
+//! `tests/architecture.rs` asserts each of these sentences.
+
 pub mod artifact;
+pub mod cli;
 pub mod cosim;
 pub mod fields;
 pub mod frames;
 pub mod hdl;
 pub mod model;
+pub mod physics;
 pub mod problem;
 pub mod ranging;
 pub mod recording;
 pub mod reference;
+pub mod report;
 pub mod spec;
 pub mod units;

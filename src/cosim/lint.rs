@@ -18,6 +18,7 @@ pub fn lint(verilator: &Verilator, folder: &Path, top: &str) -> Result<String> {
     command.args(["-f", "rtl/files.f"]);
     let (success, text) = output(&mut command)?;
     // Newer versions end with statistics, in lines that begin with a dash.
-    let said: String = text.lines().filter(|line| line.starts_with('%')).map(|line| format!("{line}\n")).collect();
+    let said: String =
+        text.lines().filter(|line| line.starts_with('%')).map(|line| format!("{line}\n")).collect();
     Ok(if success { said } else { text })
 }

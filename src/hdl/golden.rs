@@ -64,6 +64,8 @@ pub struct Golden {
     pub epochs: Vec<usize>,
     /// Complete and discarded sets since the last reset.
     pub counters: (u32, u32),
+    /// Sets discarded over all epochs.
+    pub discarded: u32,
 }
 
 impl Golden {
@@ -86,11 +88,15 @@ impl Golden {
         golden.advance(&mut model, StreamEvent::Silence, &open);
         golden.epochs.push(golden.records.len());
         golden.counters = model.counters();
+        golden.discarded += golden.counters.1;
         golden
     }
 
     fn advance(&mut self, model: &mut PipelineModel, event: StreamEvent, open: &(String, usize)) {
         self.stimulus.push(event.into());
+        if event == StreamEvent::Reset {
+            self.discarded += model.counters().1;
+        }
         if let Some(records) = model.advance(event) {
             self.records.extend(records);
             self.sets.push(open.clone());

@@ -103,6 +103,11 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
     if !(8..=16).contains(&sensor.adc_bits) {
         return Err(refused(source, "sensor.adc_bits", sensor.adc_bits).expected("8 to 16 bits"));
     }
+    let full_scale_dn = Word::unsigned(sensor.adc_bits).max();
+    if !(1..=full_scale_dn).contains(&sensor.saturation_dn) {
+        return Err(refused(source, "sensor.saturation_dn", sensor.saturation_dn)
+            .expected(format_args!("1 to {full_scale_dn}, the full scale of {} bits", sensor.adc_bits)));
+    }
     if sensor.width * sensor.height < 8 {
         return Err(refused(source, "sensor.width * sensor.height", sensor.width * sensor.height)
             .expected("8 pixels or more: a sum is back in its memory before its pixel's next frame"));

@@ -130,9 +130,11 @@ impl Pipeline {
     pub fn adapted(&self, source: &str, change: impl FnOnce(&mut Specification)) -> Result<Self> {
         let mut specification = self.specification.clone();
         change(&mut specification);
-        let full_scale = |bits: u32| Word::unsigned(bits).max();
-        if self.sensor.saturation_dn == full_scale(self.sensor.adc_bits) {
-            specification.sensor.saturation_dn = full_scale(specification.sensor.adc_bits);
+        // Full scale stays full scale when the converter changes, unless the change says otherwise.
+        let full_scale = |sensor: &Sensor| Word::unsigned(sensor.adc_bits).max();
+        let follows = self.sensor.saturation_dn == full_scale(&self.sensor);
+        if follows && specification.sensor.saturation_dn == self.sensor.saturation_dn {
+            specification.sensor.saturation_dn = full_scale(&specification.sensor);
         }
         Self::new(source, specification)
     }

@@ -1,0 +1,30 @@
+//! `vuris explain`
+
+use crate::problem::Result;
+use crate::report::explanation;
+use crate::spec::Pipeline;
+use clap::Args;
+use std::process::ExitCode;
+
+/// Print every derived number of a pipeline: word widths and why, latency, memory, worst-case errors
+#[derive(Debug, Args)]
+pub(super) struct Explain {
+    /// Specification: a preset (vuris, vuris-four-frame) or a TOML file
+    #[arg(long, value_name = "FILE|PRESET")]
+    spec: String,
+    /// Print the specification instead, as a TOML file with every default written out
+    #[arg(long)]
+    toml: bool,
+}
+
+impl Explain {
+    pub(super) fn run(self) -> Result<ExitCode> {
+        let pipeline = Pipeline::named(&self.spec)?;
+        if self.toml {
+            print!("{}", pipeline.to_toml());
+        } else {
+            print!("{}", explanation(&pipeline));
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,213 @@
+//! `vuris process`
+
+use super::{SchemeArgument, progress};
+use crate::model::{PipelineModel, PixelRecord, StreamEvent, beats_of_set};
+use crate::problem::Result;
+use crate::ranging::{RangeErrors, range_errors};
+use crate::recording::Recording;
+use crate::recording::arrays::{NamedArray, Numbers, write_arrays};
+use crate::recording::matching::pipeline_for;
+use crate::reference::{DifferenceStatistics, ReferenceImages, reference_images};
+use crate::spec::Pipeline;
+use crate::units::unambiguous_range_m;
+use clap::Args;
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Run the integer model over a recording, and write phase, amplitude, offset, distance and flags as .npy
+#[derive(Debug, Args)]
+pub(super) struct Process {
+    /// Folder of the recording
+    recording: PathBuf,
+    /// Specification: a preset (vuris, vuris-four-frame) or a TOML file
+    #[arg(long, value_name = "FILE|PRESET")]
+    spec: String,
+    /// Folder to write to: a new one, or one of an earlier run, which is replaced
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Scheme for the recording
+    #[arg(long, value_enum, default_value_t)]
+    scheme: SchemeArgument,
+}
+
+/// A recording's results.
+pub(super) struct Processed {
+    pub recording: Recording,
+    pub pipeline: Pipeline,
+    pub records: Vec<PixelRecord>,
+    pub reference: ReferenceImages,
+    pub notes: Vec<String>,
+}
+
+impl Processed {
+    pub(super) fn new(folder: &Path, base: &Pipeline, scheme: SchemeArgument) -> Result<Self> {
+        let recording = Recording::open(folder)?;
+        let (pipeline, notes) = pipeline_for(&recording, base, scheme.into())?;
+        let records = progress::during("running the model", || records(&pipeline, &recording));
+        let reference = reference_images(&pipeline, &recording.raw)?;
+        Ok(Self { recording, pipeline, records, reference, notes })
+    }
+
+    /// Ranges in m by the integer model, `[set, row, column]`.
+    pub(super) fn range_m(&self) -> Vec<f64> {
+        let unit_m = self.pipeline.output.distance_unit_m;
+        self.records.iter().map(|record| record.distance as f64 * unit_m).collect()
+    }
+
+    /// The integer model's ranges against the encoder.
+    pub(super) fn range_errors(&self) -> Result<RangeErrors> {
+        let valid: Vec<bool> = self.records.iter().map(|record| record.valid).collect();
+        range_errors(&self.recording, &self.range_m(), &valid)
+    }
+
+    fn arrays(&self) -> Vec<NamedArray> {
+        let derived = self.pipeline.derived();
+        let geometry = self.recording.geometry();
+        let shape = vec![self.recording.raw.sets(), geometry.height, geometry.width];
+        let codes =
+            |bits: u32, value: fn(&PixelRecord) -> i64| Numbers::codes(bits, self.records.iter().map(value));
+        let flags = |valid: &[bool], saturated: &[bool]| {
+            let bits = valid.iter().zip(saturated);
+            Numbers::U8(bits.map(|(&valid, &saturated)| u8::from(valid) | u8::from(saturated) << 1).collect())
+        };
+        let reference = &self.reference;
+        let rows = [
+            ("phase", codes(derived.phase.bits, |r| r.phase)),
+            ("amplitude", codes(derived.amplitude.bits, |r| r.amplitude)),
+            ("offset", codes(derived.offset.bits, |r| r.offset)),
+            ("distance", codes(derived.distance.bits, |r| r.distance)),
+            ("flags", codes(2, |r| i64::from(r.valid) | i64::from(r.sums.saturated) << 1)),
+            ("reference_phase_turns", Numbers::F64(reference.phase_turns.clone())),
+            ("reference_amplitude_dn", Numbers::F64(reference.amplitude_dn.clone())),
+            ("reference_offset_dn", Numbers::F64(reference.offset_dn.clone())),
+            ("reference_range_m", Numbers::F64(reference.range_m.clone())),
+            ("reference_flags", flags(&reference.valid, &reference.saturated)),
+        ];
+        rows.into_iter()
+            .map(|(name, numbers)| NamedArray { name: name.to_owned(), shape: shape.clone(), numbers })
+            .collect()
+    }
+
+    /// What the arrays' codes mean, and what they were made from.
+    fn provenance(&self, spec: &str) -> toml::Table {
+        let output = &self.pipeline.output;
+        let mut table = toml::Table::new();
+        let mut put = |key: &str, value: toml::Value| {
+            table.insert(key.to_owned(), value);
+        };
+        put("recording", self.recording.name.clone().into());
+        put("spec", spec.into());
+        put("scheme", self.pipeline.modulation.scheme.name.into());
+        put("phase_turns_per_code", f64::from(output.phase_bits).exp2().recip().into());
+        put("amplitude_dn_per_code", f64::from(output.amplitude_fraction_bits).exp2().recip().into());
+        put("offset_dn_per_code", f64::from(output.offset_fraction_bits).exp2().recip().into());
+        put("distance_m_per_code", output.distance_unit_m.into());
+        put("flags", "bit 0: valid, bit 1: saturated".into());
+        table
+    }
+
+    fn print_differences(&self) {
+        let (output, reference) = (&self.pipeline.output, &self.reference);
+        let valid = |values: Vec<f64>| -> Vec<f64> {
+            values.into_iter().zip(&reference.valid).filter(|(_, valid)| **valid).map(|(v, _)| v).collect()
+        };
+        let integers = |scale: f64, value: fn(&PixelRecord) -> i64| {
+            valid(self.records.iter().map(|record| value(record) as f64 * scale).collect())
+        };
+        let of_codes = |bits: u32| f64::from(bits).exp2().recip();
+        let unambiguous_m = unambiguous_range_m(self.pipeline.modulation.frequency_hz);
+        println!("  {:<22} {:>12} {:>12} {:>12}", "integer - float", "mean", "RMS", "largest");
+        let rows = [
+            (
+                "phase, mrad",
+                1e3 * TAU,
+                of_codes(output.phase_bits),
+                (|r| r.phase) as fn(&PixelRecord) -> i64,
+                &reference.phase_turns,
+                Some(1.0),
+            ),
+            (
+                "amplitude, DN",
+                1.0,
+                of_codes(output.amplitude_fraction_bits),
+                |r| r.amplitude,
+                &reference.amplitude_dn,
+                None,
+            ),
+            (
+                "offset, DN",
+                1.0,
+                of_codes(output.offset_fraction_bits),
+                |r| r.offset,
+                &reference.offset_dn,
+                None,
+            ),
+            (
+                "distance, um",
+                1e6,
+                output.distance_unit_m,
+                |r| r.distance,
+                &reference.range_m,
+                Some(unambiguous_m),
+            ),
+        ];
+        for (name, unit, scale, value, floats, period) in rows {
+            let (codes, floats) = (integers(scale, value), valid(floats.clone()));
+            if let Some(DifferenceStatistics { mean, rms, max_abs, .. }) =
+                DifferenceStatistics::between(&codes, &floats, period)
+            {
+                println!("  {name:<22} {:>+12.5} {:>12.5} {:>12.5}", mean * unit, rms * unit, max_abs * unit);
+            }
+        }
+        let count = |flag: fn(&PixelRecord) -> bool| self.records.iter().filter(|r| flag(r)).count();
+        println!(
+            "  {} pixels in {} sets; {} without a phase, {} saturated",
+            self.records.len(),
+            self.recording.raw.sets(),
+            count(|r| !r.valid),
+            count(|r| r.sums.saturated)
+        );
+    }
+}
+
+/// The model's records of all sets of `recording`, `[set, row, column]`.
+fn records(pipeline: &Pipeline, recording: &Recording) -> Vec<PixelRecord> {
+    let mut model = PipelineModel::new(pipeline);
+    let mut records = Vec::with_capacity(recording.raw.sets() * recording.geometry().pixels());
+    for set in 0..recording.raw.sets() {
+        for beat in beats_of_set(&recording.raw, set) {
+            records.extend(model.advance(StreamEvent::Beat(beat)).into_iter().flatten());
+        }
+    }
+    records.extend(model.advance(StreamEvent::Silence).into_iter().flatten());
+    records
+}
+
+impl Process {
+    pub(super) fn run(self) -> Result<ExitCode> {
+        let base = Pipeline::named(&self.spec)?;
+        let processed = Processed::new(&self.recording, &base, self.scheme)?;
+        write_arrays(&self.out, &processed.arrays(), &processed.provenance(&self.spec))?;
+        println!(
+            "{}: scheme {}, {} MHz",
+            processed.recording.name,
+            processed.pipeline.modulation.scheme.name,
+            processed.pipeline.modulation.frequency_hz / 1e6
+        );
+        for note in &processed.notes {
+            println!("  {note}");
+        }
+        processed.print_differences();
+        match processed.range_errors() {
+            Ok(errors) => println!(
+                "  range against the encoder, each pixel's own constant removed: RMS {:.2} mm a pixel, {:.2} mm of the sets' means",
+                1e3 * errors.pixels.rms,
+                1e3 * errors.set_means.rms
+            ),
+            Err(why) => println!("  no range against the encoder: {why}"),
+        }
+        println!("  written: {}", self.out.display());
+        Ok(ExitCode::SUCCESS)
+    }
+}

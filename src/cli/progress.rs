@@ -1,0 +1,18 @@
+//! Signs of life: on a terminal only.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::time::Duration;
+
+/// A line that says what is going on, while `work` runs.
+pub(super) fn during<T>(what: impl Into<String>, work: impl FnOnce() -> T) -> T {
+    // indicatif draws on standard error, and nothing where that is not a terminal.
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.set_message(what.into());
+    bar.enable_steady_tick(Duration::from_millis(100));
+    let result = work();
+    bar.finish_and_clear();
+    result
+}

@@ -1,0 +1,118 @@
+//! The forward simulator: a scene, a waveform, light, charge and noise to raw frames.
+//!
+//! Frame n of a set samples, as in the recording format,
+//! I_n = A_n Σ_m a_m cos(m (k δ − φ_n) + p_m) + B_n, where k is the frame's phase step, and φ_n, A_n and B_n are the
+//! pixel's phase, amplitude and offset at the frame's start: an object that moves changes all three from frame to frame.
+//!
+//! Absent so far: exposure times that blur a moving edge, pixels that see two surfaces at once, several light paths,
+//! charge that stays behind, drift, and sensors that are not linear.
+
+mod correlation;
+mod scene;
+mod sensor;
+mod shape;
+
+pub use correlation::{Correlation, Harmonic};
+pub use scene::{Object, Scene, Surface};
+pub use sensor::{Light, Sensor};
+pub use shape::{Hit, Shape, Vector};
+
+use crate::frames::RawSets;
+use crate::problem::{Problem, Result};
+use crate::spec::Scheme;
+use crate::units::phase_rad;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+
+/// How the raw frames are taken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Acquisition {
+    /// The phase steps of a set.
+    pub scheme: &'static Scheme,
+    /// Raw frames taken one after the other at every phase step, at least 1.
+    pub frames_per_step: usize,
+    /// Modulation frequency, Hz, > 0.
+    pub frequency_hz: f64,
+    /// From the start of a raw frame to the start of the next, s; sets follow each other without a pause.
+    pub frame_period_s: f64,
+    /// Number of sets.
+    pub sets: usize,
+}
+
+impl Acquisition {
+    /// Raw frames in a set.
+    pub fn frames_per_set(&self) -> usize {
+        self.scheme.steps() * self.frames_per_step
+    }
+
+    /// Start of frame `frame` of set `set`, s.
+    fn start_s(&self, set: usize, frame: usize) -> f64 {
+        (set * self.frames_per_set() + frame) as f64 * self.frame_period_s
+    }
+
+    /// Mean of the starts of a set's frames, s.
+    fn middle_s(&self, set: usize) -> f64 {
+        (self.start_s(set, 0) + self.start_s(set, self.frames_per_set().saturating_sub(1))) / 2.0
+    }
+}
+
+/// Takes raw frames of `scene`, and says how far away everything really was.
+///
+/// The true radial ranges in m, `[set, row, column]`, are those at the middle of the set (the mean of its frames'
+/// starts), which is what a symmetric scheme measures of a moving object. NaN where a pixel has no true range: where
+/// it sees nothing, or one object at the set's beginning and another later.
+///
+/// `noise_seed` draws shot and read noise; `None` leaves them out. A frame's noise follows from the seed and the frame's
+/// number alone, and the arithmetic avoids the platform's mathematical library, so codes do not depend on machine or order.
+///
+/// Refuses a sensor without pixels and a set without frames.
+pub fn simulate(
+    scene: &Scene,
+    correlation: &Correlation,
+    sensor: &Sensor,
+    acquisition: &Acquisition,
+    noise_seed: Option<u64>,
+) -> Result<(RawSets, Vec<f64>)> {
+    let view = |time_s| scene.view(sensor.geometry, sensor.focal_length_px, time_s);
+    let object = |surface: Option<Surface>| surface.map(|surface| surface.object);
+    let frames_per_set = acquisition.frames_per_set();
+    let mut codes = Vec::new();
+    let mut true_range_m = Vec::new();
+    for set in 0..acquisition.sets {
+        let middle = view(acquisition.middle_s(set));
+        let mut true_m: Vec<f64> = middle.iter().map(|s| s.map_or(f64::NAN, |s| s.range_m)).collect();
+        for frame in 0..frames_per_set {
+            let angle_rad = (frame / acquisition.frames_per_step) as f64 * acquisition.scheme.step_rad();
+            let mut noise = noise_seed.map(|seed| noise_of_frame(seed, set * frames_per_set + frame));
+            for (pixel, surface) in view(acquisition.start_s(set, frame)).into_iter().enumerate() {
+                if object(surface) != object(middle[pixel]) {
+                    true_m[pixel] = f64::NAN;
+                }
+                let light = sensor.light(surface);
+                let phase_rad = surface.map_or(0.0, |s| phase_rad(s.range_m, acquisition.frequency_hz));
+                let charge_e = light.amplitude_e * correlation.at(angle_rad - phase_rad) + light.offset_e;
+                codes.push(match &mut noise {
+                    Some(source) => sensor.noisy_code(charge_e, StandardNormal.sample(source)),
+                    None => sensor.code(charge_e),
+                });
+            }
+        }
+        true_range_m.extend(true_m);
+    }
+    let frames = RawSets::new(sensor.geometry, frames_per_set, codes).ok_or_else(|| {
+        let found = format!("{} pixels, {frames_per_set} frames a set", sensor.geometry.pixels());
+        Problem::at("simulation", found).expected("at least one pixel, and one frame for every phase step")
+    })?;
+    Ok((frames, true_range_m))
+}
+
+/// The noise of raw frame number `frame` since the start: a stream of its own.
+fn noise_of_frame(seed: u64, frame: usize) -> ChaCha8Rng {
+    let mut source = ChaCha8Rng::seed_from_u64(seed);
+    source.set_stream(frame as u64);
+    source
+}
+
+#[cfg(test)]
+mod tests;

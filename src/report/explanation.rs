@@ -1,0 +1,278 @@
+//! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
+
+use crate::hdl::{result_bits, result_fields};
+use crate::spec::{Irrational, Pipeline, Word, exact};
+use crate::units::unambiguous_range_m;
+use comfy_table::{ContentArrangement, Table, presets};
+use std::f64::consts::TAU;
+
+/// A table of quantity, value and reason.
+struct Section {
+    title: &'static str,
+    rows: Vec<[String; 3]>,
+}
+
+impl Section {
+    fn new(title: &'static str) -> Self {
+        Self { title, rows: Vec::new() }
+    }
+
+    fn row(&mut self, quantity: &str, value: impl ToString, why: impl ToString) {
+        self.rows.push([quantity.to_owned(), value.to_string(), why.to_string()]);
+    }
+
+    fn text(&self) -> String {
+        let mut table = Table::new();
+        table.load_style(presets::ASCII_MARKDOWN).set_content_arrangement(ContentArrangement::Disabled);
+        table.set_header([self.title, "value", "why"]);
+        table.add_rows(&self.rows);
+        format!("{table}\n")
+    }
+}
+
+fn word(word: Word) -> String {
+    format!("{} bits {}", word.bits, if word.signed { "signed" } else { "unsigned" })
+}
+
+/// The tables of `pipeline`.
+pub fn explanation(pipeline: &Pipeline) -> String {
+    let sections =
+        [input(pipeline), accumulator(pipeline), vector(pipeline), output(pipeline), errors(pipeline)];
+    let mut text = format!(
+        "{}: scheme {}, {}\n",
+        pipeline.name, pipeline.modulation.scheme.name, pipeline.modulation.scheme.reference
+    );
+    for section in sections {
+        text.push('\n');
+        text.push_str(&section.text());
+    }
+    text
+}
+
+fn input(pipeline: &Pipeline) -> Section {
+    let (derived, sensor) = (pipeline.derived(), &pipeline.sensor);
+    let scheme = pipeline.modulation.scheme;
+    let mut section = Section::new("raw stream");
+    section.row("sample", word(derived.sample), "adc_bits");
+    section.row(
+        "pixels a frame",
+        pipeline.geometry().pixels(),
+        format!("{} x {}", sensor.width, sensor.height),
+    );
+    section.row(
+        "raw frames a set",
+        derived.frames_per_set,
+        format!(
+            "{} phase steps of {}/{} turn x {} frames a step",
+            scheme.steps(),
+            scheme.step_turns.0,
+            scheme.step_turns.1,
+            pipeline.modulation.frames_per_step
+        ),
+    );
+    section.row("saturated from", format!("{} DN", sensor.saturation_dn), "saturation_dn, or full scale");
+    section.row(
+        "silence that ends a frame",
+        format!("{} clocks", sensor.line_blanking_clocks),
+        "line_blanking_clocks",
+    );
+    section
+}
+
+fn accumulator(pipeline: &Pipeline) -> Section {
+    let derived = pipeline.derived();
+    let scheme = pipeline.modulation.scheme;
+    let mut section = Section::new("accumulator");
+    let full_scale = pipeline.modulation.frames_per_step as i64 * derived.sample.max();
+    for (name, weights, sum) in [
+        ("in-phase sum", scheme.in_phase, derived.in_phase),
+        ("quadrature sum", scheme.quadrature, derived.quadrature),
+        ("offset sum", scheme.offset, derived.offset_sum),
+    ] {
+        let part = |sign: i64| weights.iter().filter(|&&weight| weight * sign > 0).sum::<i64>();
+        section.row(
+            name,
+            word(sum),
+            format!(
+                "weights {weights:?}: between {} x {full_scale} = {} and {} x {full_scale} = {}, for every partial sum too",
+                part(-1),
+                part(-1) * full_scale,
+                part(1),
+                part(1) * full_scale
+            ),
+        );
+    }
+    section.row("saturation flag", "1 bit", "set by any frame");
+    section.row("memory word", format!("{} bits", derived.memory_word_bits), "the sums and the flag");
+    section.row(
+        "memory",
+        format!("{} bits", derived.memory_bits),
+        format!(
+            "word x {} pixels, one buffer: a set's first frame replaces sums that have drained",
+            pipeline.geometry().pixels()
+        ),
+    );
+    section
+}
+
+fn vector(pipeline: &Pipeline) -> Section {
+    let (derived, cordic) = (pipeline.derived(), &pipeline.cordic);
+    let mut section = Section::new("scaling, normaliser, CORDIC");
+    let (n, d) = (derived.quadrature_factor, derived.in_phase_factor);
+    match pipeline.modulation.scheme.irrational {
+        Irrational::One => section.row("factors", "1, 1", "the weights are the true ones"),
+        Irrational::Sqrt3 => section.row(
+            "factors of quadrature, in-phase",
+            format!("{n}, {d}"),
+            format!(
+                "{n}^2 - 3 x {d}^2 = {}, so {n}/{d} exceeds sqrt(3) by less than 1/(6 x {d}^2) = {:.2e} of itself",
+                n * n - 3 * d * d,
+                derived.factor_error
+            ),
+        ),
+    }
+    section.row("x", word(derived.x), "in-phase sum x its factor");
+    section.row("y", word(derived.y), "quadrature sum x its factor");
+    let normaliser = &derived.normaliser;
+    section.row(
+        "larger magnitude",
+        format!("{} bits", normaliser.magnitude_bits),
+        "the larger of |x| and |y|",
+    );
+    section.row(
+        "shift stages",
+        format!("{:?}", normaliser.shifts),
+        "together they reach every leading-zero count",
+    );
+    section.row(
+        "normalised to",
+        format!("{} fraction bits", derived.fraction_bits),
+        format!(
+            "phase bits {} + vector guard bits {}; {}",
+            pipeline.output.phase_bits,
+            cordic.vector_guard_bits,
+            match (normaliser.pad_bits, normaliser.drop_bits) {
+                (pad, 0) => format!("{pad} zeros appended, nothing lost"),
+                (_, drop) => format!("{drop} bits rounded off"),
+            }
+        ),
+    );
+    section.row(
+        "CORDIC gain",
+        format!("{:.9}", exact::cordic_gain_f64(cordic.iterations)),
+        "product of sqrt(1 + 2^-2i) from i = 1: the octant fold saves i = 0",
+    );
+    section.row("CORDIC x", word(derived.cordic_x), "at most 2 sqrt(2) x 1.16445 < 4, always positive");
+    section.row(
+        "CORDIC y",
+        word(derived.cordic_y),
+        "at most 2 before, 2 sqrt(2) x 1.16445 x sin 45 < 2.33 after an iteration",
+    );
+    section.row("angle", word(derived.angle), "sum of all angles < 0.153 turn, so a quarter turn either way");
+    section.row("iterations", cordic.iterations, "by atan 2^-1 ... 2^-iterations");
+    section.row(
+        "latency",
+        format!("{} clocks", derived.latency_clocks),
+        format!(
+            "from the read of a pixel's sums to its result: memory 1, scaling 1, magnitude 1, swap 1, shifts {}, rounding {}, iterations {}, polar 2, distance 2",
+            normaliser.shifts.len(),
+            u32::from(normaliser.drop_bits > 0),
+            cordic.iterations
+        ),
+    );
+    section
+}
+
+fn output(pipeline: &Pipeline) -> Section {
+    let (derived, output) = (pipeline.derived(), &pipeline.output);
+    let mut section = Section::new("result");
+    for field in result_fields(pipeline) {
+        let top = field.low + field.bits - 1;
+        section.row(field.name, format!("bits {top}:{}", field.low), field.meaning);
+    }
+    section.row(
+        "result word",
+        format!("{} bits", result_bits(pipeline)),
+        "every field starts on a byte, the flags share one",
+    );
+    let factor = |constant: exact::ScaledConstant| format!("{} / 2^{}", constant.multiplier, constant.shift);
+    section.row(
+        "amplitude factor",
+        factor(derived.amplitude_factor),
+        "undoes the gains of CORDIC and scheme, the in-phase factor and the frames a step",
+    );
+    section.row(
+        "offset factor",
+        factor(derived.offset_factor),
+        format!(
+            "1 / ({} x {}), in 2^-{} DN",
+            pipeline.modulation.scheme.offset_gain(),
+            pipeline.modulation.frames_per_step,
+            output.offset_fraction_bits
+        ),
+    );
+    section.row(
+        "distance factor",
+        factor(derived.distance_factor),
+        format!(
+            "{:.6} m a turn = c / (2 x {} Hz), in units of {} m",
+            unambiguous_range_m(pipeline.modulation.frequency_hz),
+            pipeline.modulation.frequency_hz,
+            output.distance_unit_m
+        ),
+    );
+    section.row(
+        "least amplitude",
+        format!("{} codes", derived.minimum_amplitude),
+        "a weaker pixel is not usable; nor is one without a vector",
+    );
+    section
+}
+
+fn errors(pipeline: &Pipeline) -> Section {
+    let budget = pipeline.budget();
+    let code_mrad = 1e3 * TAU / f64::from(pipeline.output.phase_bits).exp2();
+    let mut section = Section::new("worst-case error");
+    for contribution in &budget.phase {
+        section.row(
+            &format!("phase: {}", contribution.name),
+            format!(
+                "{:.4} codes = {:.5} mrad",
+                contribution.phase_codes,
+                contribution.phase_codes * code_mrad
+            ),
+            &contribution.why,
+        );
+    }
+    section.row(
+        "phase, sum",
+        format!("{:.4} codes = {:.5} mrad", budget.phase_codes(), budget.phase_codes() * code_mrad),
+        if budget.phase_codes() < 1.0 {
+            "faithful: one of the two codes next to the exact phase of the same frames, at every amplitude"
+        } else {
+            "for every vector that is not zero, at every amplitude"
+        },
+    );
+    section.row(
+        "amplitude",
+        format!("0.5 codes + {:.2e}", budget.amplitude_relative),
+        "last rounding, and relative: factors, rounding in the CORDIC",
+    );
+    section.row(
+        "offset",
+        format!("0.5 codes + {:.2e}", budget.offset_relative),
+        "last rounding, and relative: the factor",
+    );
+    section.row(
+        "distance",
+        format!("0.5 codes + {:.2e}", budget.distance_relative),
+        "last rounding, and relative: the factor; beside the phase's own error",
+    );
+    let noise = pipeline.modulation.scheme.noise_factor();
+    section.row(
+        "noise of the scheme",
+        format!("{noise:.4} x sigma / amplitude rad"),
+        "from its weights, for white noise: what the errors above are to be compared with",
+    );
+    section
+}

@@ -1,0 +1,12 @@
+//! Results as a person reads them: tables, and pictures of plain numbers.
+
+mod colour_map;
+mod error_maps;
+mod explanation;
+mod pixel_image;
+mod scale;
+mod svg;
+
+pub use colour_map::ColourMap;
+pub use error_maps::{ErrorMap, ErrorMaps, rms};
+pub use explanation::explanation;
