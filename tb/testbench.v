@@ -1,7 +1,7 @@
 [[ bench.banner ]]
 // Drives the core with vectors/stimulus.hex, with random pauses on the input and random stops on the output, and compares
 // every stage with vectors/*.hex. Plain Verilog-2005: run it from the folder that holds vectors/, in any simulator, with
-// rtl/*.v, tb/bench_taps.v and this file.
+// rtl/*.v and this file.
 //   +seed=N        seed of pauses and stops (1)
 //   +pause=P       percent of clocks without input (25)
 //   +stop=P        percent of clocks without output (25)
@@ -31,38 +31,34 @@ module testbench;
   reg  [[ "[" ]][[ vector.bits - 1 ]]:0] expected_[[ vector.name ]] [0:RECORDS-1];
 [%- endfor %]
 
-  reg         s_valid = 1'b0;
-  wire        s_ready;
-  reg  [[ "[" ]][[ bench.sample_bus - 1 ]]:0] s_data = 0;
-  reg         s_last = 1'b0;
-  reg  [1:0]  s_user = 2'd0;
-  wire        m_valid;
-  reg         m_ready = 1'b0;
-  wire [[ "[" ]][[ bench.result_bits - 1 ]]:0] m_data;
-  wire        m_last;
-  wire        m_user;
+  reg         s_axis_tvalid = 1'b0;
+  wire        s_axis_tready;
+  reg  [[ "[" ]][[ bench.sample_bus - 1 ]]:0] s_axis_tdata = 0;
+  reg         s_axis_tlast = 1'b0;
+  reg  [1:0]  s_axis_tuser = 2'd0;
+  wire        m_axis_tvalid;
+  reg         m_axis_tready = 1'b0;
+  wire [[ "[" ]][[ bench.result_bits - 1 ]]:0] m_axis_tdata;
+  wire        m_axis_tlast;
+  wire        m_axis_tuser;
   wire [31:0] sets_done;
   wire [31:0] sets_discarded;
-  wire [STAGES-1:0] strobe;
-  wire [[ "[" ]][[ bench.channel_bits - 1 ]]:0] values;
 
-  bench_taps taps (
+  [[ bench.prefix ]] dut (
     .clk_i           (clk),
     .rst_ni          (rst_n),
-    .s_axis_tvalid   (s_valid),
-    .s_axis_tready   (s_ready),
-    .s_axis_tdata    (s_data),
-    .s_axis_tlast    (s_last),
-    .s_axis_tuser    (s_user),
-    .m_axis_tvalid   (m_valid),
-    .m_axis_tready   (m_ready),
-    .m_axis_tdata    (m_data),
-    .m_axis_tlast    (m_last),
-    .m_axis_tuser    (m_user),
+    .s_axis_tvalid   (s_axis_tvalid),
+    .s_axis_tready   (s_axis_tready),
+    .s_axis_tdata    (s_axis_tdata),
+    .s_axis_tlast    (s_axis_tlast),
+    .s_axis_tuser    (s_axis_tuser),
+    .m_axis_tvalid   (m_axis_tvalid),
+    .m_axis_tready   (m_axis_tready),
+    .m_axis_tdata    (m_axis_tdata),
+    .m_axis_tlast    (m_axis_tlast),
+    .m_axis_tuser    (m_axis_tuser),
     .sets_done_o     (sets_done),
-    .sets_discarded_o(sets_discarded),
-    .strobe_o        (strobe),
-    .values_o        (values)
+    .sets_discarded_o(sets_discarded)
   );
 
   integer seed;
@@ -87,7 +83,7 @@ module testbench;
 [%- endfor %]
     if (dumping) begin
       $dumpfile(dump);
-      $dumpvars(0, testbench.taps);
+      $dumpvars(0, testbench.dut);
       $dumpoff;
     end
   end
@@ -135,31 +131,31 @@ module testbench;
     if (dumping && clocks == dump_from) $dumpon;
     if (dumping && clocks == dump_to) $dumpoff;
 
-    if (held_valid && rst_n && (!m_valid || {m_user, m_last, m_data} !== held)) begin
+    if (held_valid && rst_n && (!m_axis_tvalid || {m_axis_tuser, m_axis_tlast, m_axis_tdata} !== held)) begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) $display("UNSTABLE clock=%0d: the result changed while it waited", clocks);
     end
-    held_valid = m_valid === 1'b1 && !m_ready && rst_n;
-    held       = {m_user, m_last, m_data};
-    if (s_valid && s_ready) idle = 0;
+    held_valid = m_axis_tvalid === 1'b1 && !m_axis_tready && rst_n;
+    held       = {m_axis_tuser, m_axis_tlast, m_axis_tdata};
+    if (s_axis_tvalid && s_axis_tready) idle = 0;
 
     if (rst_n) begin
 [%- for stage in bench.stages %]
-      if (strobe[ [[- stage.number -]] ] !== 1'b0) begin  // [[ stage.name ]]
+      if (([[ stage.strobe ]]) !== 1'b0) begin  // [[ stage.name ]]
         idle = 0;
         if (record[ [[- stage.number -]] ] >= epoch_end[epoch]) surplus([[ stage.number ]]);
         else begin
 [%- for channel in stage.channels %]
-          if (values[ [[- channel.low ]] +: [[ channel.bits ]]] !== expected_[[ channel.vector ]][record[ [[- stage.number -]] ]])
+          if ([[ channel.probe ]] !== expected_[[ channel.vector ]][record[ [[- stage.number -]] ]])
             report("[[ channel.name ]]", record[ [[- stage.number -]] ], {[[ channel.spare_bits ]]'d0, expected_[[ channel.vector ]][record[ [[- stage.number -]] ]]},
-                   values[ [[- channel.low ]] +: 64]);
+                   {[[ channel.spare_bits ]]'d0, [[ channel.probe ]]});
 [%- endfor %]
           compared = compared + [[ stage.channels.len() ]];
 [%- if loop.last %]
           pixel = record[ [[- stage.number -]] ] % PIXELS;
-          if (m_user !== (pixel == 0)) report("output.first", record[ [[- stage.number -]] ], pixel == 0, m_user);
-          if (m_last !== (pixel % WIDTH == WIDTH - 1))
-            report("output.last", record[ [[- stage.number -]] ], pixel % WIDTH == WIDTH - 1, m_last);
+          if (m_axis_tuser !== (pixel == 0)) report("output.first", record[ [[- stage.number -]] ], pixel == 0, m_axis_tuser);
+          if (m_axis_tlast !== (pixel % WIDTH == WIDTH - 1))
+            report("output.last", record[ [[- stage.number -]] ], pixel % WIDTH == WIDTH - 1, m_axis_tlast);
           compared = compared + 2;
 [%- endif %]
         end
@@ -198,8 +194,8 @@ module testbench;
         rst_n     <= 1'b1;
         resetting  = 1'b0;
       end
-    end else if (!s_valid || s_ready) begin
-      s_valid <= 1'b0;
+    end else if (!s_axis_tvalid || s_axis_tready) begin
+      s_axis_tvalid <= 1'b0;
       if (word < STIMULUS) begin
         next = stimulus[word];
         if (next[19]) begin
@@ -220,14 +216,14 @@ module testbench;
         end else begin
           run      = 0;
           word     = word + 1;
-          s_valid <= 1'b1;
-          s_data  <= next[15:0];
-          s_last  <= next[18];
-          s_user  <= next[17:16];
+          s_axis_tvalid <= 1'b1;
+          s_axis_tdata  <= next[15:0];
+          s_axis_tlast  <= next[18];
+          s_axis_tuser  <= next[17:16];
         end
       end
     end
-    m_ready <= $unsigned($random(seed)) % 100 >= stop;
+    m_axis_tready <= $unsigned($random(seed)) % 100 >= stop;
   end
 
 endmodule

@@ -129,7 +129,7 @@ impl Run<'_> {
                     "-f",
                     "rtl/files.f",
                 ]);
-                command.args(["tb/bench_taps.v", "tb/testbench.v"]);
+                command.arg("tb/testbench.v");
                 (command, self.folder.join("simulation.vvp"))
             }
         };

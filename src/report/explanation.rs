@@ -137,7 +137,7 @@ fn vector(pipeline: &Pipeline) -> Section {
     section.row(
         "larger magnitude",
         format!("{} bits", normaliser.magnitude_bits),
-        "the larger of |x| and |y|",
+        "of x and y, without sign",
     );
     section.row(
         "shift stages",
