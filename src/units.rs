@@ -24,13 +24,7 @@ pub fn wrap_rad(difference_rad: f64) -> f64 {
     (difference_rad + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0
 }
 
-/// A phase word of `bits` bits as a fraction of a turn, exactly.
+/// A phase word of `bits` bits (1 to 63) as a fraction of a turn, exactly.
 pub fn turns_of_code(code: i64, bits: u32) -> Turns {
-    debug_assert!((1..=63).contains(&bits));
     Turns::from_bits((code as u64) << (64 - bits))
-}
-
-/// A phase word of `bits` bits in radians, in [0, 2π).
-pub fn rad_of_code(code: i64, bits: u32) -> f64 {
-    turns_of_code(code, bits).to_num::<f64>() * TAU
 }

@@ -9,7 +9,7 @@ use crate::recording::arrays::{NamedArray, Numbers, write_arrays};
 use crate::recording::matching::pipeline_for;
 use crate::reference::{DifferenceStatistics, ReferenceImages, reference_images};
 use crate::spec::Pipeline;
-use crate::units::unambiguous_range_m;
+use crate::units::{turns_of_code, unambiguous_range_m};
 use clap::Args;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -109,55 +109,32 @@ impl Processed {
 
     fn print_differences(&self) {
         let (output, reference) = (&self.pipeline.output, &self.reference);
-        let valid = |values: Vec<f64>| -> Vec<f64> {
-            values.into_iter().zip(&reference.valid).filter(|(_, valid)| **valid).map(|(v, _)| v).collect()
-        };
-        let integers = |scale: f64, value: fn(&PixelRecord) -> i64| {
-            valid(self.records.iter().map(|record| value(record) as f64 * scale).collect())
-        };
         let of_codes = |bits: u32| f64::from(bits).exp2().recip();
         let unambiguous_m = unambiguous_range_m(self.pipeline.modulation.frequency_hz);
+        let values =
+            |value: &dyn Fn(&PixelRecord) -> f64| self.records.iter().map(value).collect::<Vec<f64>>();
+        let amplitude_dn = values(&|r| r.amplitude as f64 * of_codes(output.amplitude_fraction_bits));
+        let offset_dn = values(&|r| r.offset as f64 * of_codes(output.offset_fraction_bits));
+        let phase_turns = values(&|r| turns_of_code(r.phase, output.phase_bits).to_num());
         println!("  {:<22} {:>12} {:>12} {:>12}", "integer - float", "mean", "RMS", "largest");
-        let rows = [
-            (
-                "phase, mrad",
-                1e3 * TAU,
-                of_codes(output.phase_bits),
-                (|r| r.phase) as fn(&PixelRecord) -> i64,
-                &reference.phase_turns,
-                Some(1.0),
-            ),
-            (
-                "amplitude, DN",
-                1.0,
-                of_codes(output.amplitude_fraction_bits),
-                |r| r.amplitude,
-                &reference.amplitude_dn,
-                None,
-            ),
-            (
-                "offset, DN",
-                1.0,
-                of_codes(output.offset_fraction_bits),
-                |r| r.offset,
-                &reference.offset_dn,
-                None,
-            ),
-            (
-                "distance, um",
-                1e6,
-                output.distance_unit_m,
-                |r| r.distance,
-                &reference.range_m,
-                Some(unambiguous_m),
-            ),
-        ];
-        for (name, unit, scale, value, floats, period) in rows {
-            let (codes, floats) = (integers(scale, value), valid(floats.clone()));
+        for (name, scale, integers, floats, period) in [
+            ("phase, mrad", 1e3 * TAU, &phase_turns, &reference.phase_turns, Some(1.0)),
+            ("amplitude, DN", 1.0, &amplitude_dn, &reference.amplitude_dn, None),
+            ("offset, DN", 1.0, &offset_dn, &reference.offset_dn, None),
+            ("distance, um", 1e6, &self.range_m(), &reference.range_m, Some(unambiguous_m)),
+        ] {
+            let valid = |values: &[f64]| -> Vec<f64> {
+                values.iter().zip(&reference.valid).filter(|(_, valid)| **valid).map(|(v, _)| *v).collect()
+            };
             if let Some(DifferenceStatistics { mean, rms, max_abs, .. }) =
-                DifferenceStatistics::between(&codes, &floats, period)
+                DifferenceStatistics::between(&valid(integers), &valid(floats), period)
             {
-                println!("  {name:<22} {:>+12.5} {:>12.5} {:>12.5}", mean * unit, rms * unit, max_abs * unit);
+                println!(
+                    "  {name:<22} {:>+12.5} {:>12.5} {:>12.5}",
+                    mean * scale,
+                    rms * scale,
+                    max_abs * scale
+                );
             }
         }
         let count = |flag: fn(&PixelRecord) -> bool| self.records.iter().filter(|r| flag(r)).count();

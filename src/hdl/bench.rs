@@ -258,9 +258,11 @@ pub fn bench_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
         Artifact::new(path, finished(render(&bench)))
     };
     vec![
-        file("tb/bench_taps.v", "The core with its stages' values led out, for the Verilator bench.", |bench| {
-            Taps { bench }.render()
-        }),
+        file(
+            "tb/bench_taps.v",
+            "The core with its stages' values led out, for the Verilator bench.",
+            |bench| Taps { bench }.render(),
+        ),
         file("tb/testbench.v", "Self-checking test bench for any Verilog simulator.", |bench| {
             Testbench { bench }.render()
         }),
