@@ -2,12 +2,15 @@
 //!
 //! One template a module, in `hdl-templates/`; values arrive there finished.
 
-mod arithmetic;
 mod bench;
 mod control;
+mod cordic;
 mod golden;
+mod meta;
+mod polar;
 mod text;
 mod top;
+mod vector;
 
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
 pub use golden::{Golden, Scenario, Segment, StimulusWord};
@@ -53,27 +56,23 @@ pub const MODULES: &[Module] = &[
         purpose: "In-phase, quadrature and offset sums of every pixel, added while frames arrive.",
         render: control::accumulator,
     },
-    Module { noun: "scaling", purpose: "Both sums brought to one scale.", render: arithmetic::scaling },
-    Module { noun: "shift_stage", purpose: "One stage of the normaliser.", render: arithmetic::shift_stage },
-    Module {
-        noun: "normaliser",
-        purpose: "Octant fold and leading-zero shift.",
-        render: arithmetic::normaliser,
-    },
-    Module { noun: "cordic_stage", purpose: "One CORDIC iteration.", render: arithmetic::cordic_stage },
-    Module { noun: "cordic", purpose: "CORDIC in vectoring mode.", render: arithmetic::cordic },
+    Module { noun: "scaling", purpose: "Both sums brought to one scale.", render: vector::scaling },
+    Module { noun: "shift_stage", purpose: "One stage of the normaliser.", render: vector::shift_stage },
+    Module { noun: "normaliser", purpose: "Octant fold and leading-zero shift.", render: vector::normaliser },
+    Module { noun: "cordic_stage", purpose: "One CORDIC iteration.", render: cordic::cordic_stage },
+    Module { noun: "cordic", purpose: "CORDIC in vectoring mode.", render: cordic::cordic },
     Module {
         noun: "phase",
         purpose: "The phase of a turned vector, its octant fold undone.",
-        render: arithmetic::phase,
+        render: polar::phase,
     },
     Module {
         noun: "amplitude",
         purpose: "The amplitude of a turned vector, its gains undone.",
-        render: arithmetic::amplitude,
+        render: polar::amplitude,
     },
-    Module { noun: "offset", purpose: "The offset of a pixel.", render: arithmetic::offset },
-    Module { noun: "distance", purpose: "The distance of a phase.", render: arithmetic::distance },
+    Module { noun: "offset", purpose: "The offset of a pixel.", render: polar::offset },
+    Module { noun: "distance", purpose: "The distance of a phase.", render: polar::distance },
 ];
 
 /// The Verilog files, the top module last, and the file list.

@@ -1,8 +1,8 @@
 //! Template context of the top module, and the layout of its result word.
 
 use super::Source;
-use super::arithmetic::Meta;
 use super::control::Counters;
+use super::meta::Meta;
 use super::text::{literal, range};
 use crate::spec::Pipeline;
 use askama::Template;

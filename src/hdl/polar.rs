@@ -1,0 +1,181 @@
+//! Template contexts from the turned vector to the result: phase, amplitude, offset, distance.
+
+use super::Source;
+use super::meta::Meta;
+use super::text::{counter_bits, literal, range, table, zero_extended};
+use crate::model;
+use crate::spec::{ScaledConstant, Word, exact};
+use askama::Template;
+
+#[derive(Template)]
+#[template(path = "phase.v", escape = "none")]
+struct Phase {
+    banner: String,
+    prefix: String,
+    angle_bits: u32,
+    guard_bits: u32,
+    phase_bits: u32,
+}
+
+pub(super) fn phase(source: &Source, banner: String) -> askama::Result<String> {
+    let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
+    Phase {
+        banner,
+        prefix: pipeline.prefix(),
+        angle_bits: derived.angle.bits,
+        guard_bits: pipeline.cordic.angle_guard_bits,
+        phase_bits: derived.phase.bits,
+    }
+    .render()
+}
+
+/// Bits of a constant's multiplier.
+fn factor_bits(factor: ScaledConstant) -> u32 {
+    Word::holding(0, factor.multiplier).bits
+}
+
+#[derive(Template)]
+#[template(path = "amplitude.v", escape = "none")]
+struct Amplitude {
+    banner: String,
+    prefix: String,
+    fraction_bits: u32,
+    multiplier: i64,
+    factor_shift: u32,
+    exponent: i64,
+    gain: String,
+    divisor: i64,
+    rows: Vec<String>,
+    x_bits: u32,
+    shift_bits: u32,
+    factor_bits: u32,
+    amplitude_bits: u32,
+    places_range: String,
+    spare_bits: bool,
+    factor: String,
+    places: String,
+}
+
+pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<String> {
+    let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
+    let factor = derived.amplitude_factor;
+    let shift_bits = Meta::new(source).shift_bits;
+    let factor_bits = factor_bits(factor);
+    let product_bits = derived.cordic_x.bits + factor_bits;
+    let least_places = factor.shift - 1;
+    let places_bits = counter_bits(least_places as usize + (1 << shift_bits) - 1);
+    let rows = [(1.2, 0), (2.0, 3), (1.0, derived.normaliser.magnitude_bits - 1)].map(|(x, shift)| {
+        let x = (x * f64::from(derived.fraction_bits).exp2()) as i64;
+        let amplitude = model::amplitude(pipeline, x, shift, false);
+        vec![x.to_string(), shift.to_string(), amplitude.to_string()]
+    });
+    Amplitude {
+        banner,
+        prefix: pipeline.prefix(),
+        fraction_bits: pipeline.output.amplitude_fraction_bits,
+        multiplier: factor.multiplier,
+        factor_shift: factor.shift,
+        exponent: i64::from(pipeline.output.amplitude_fraction_bits)
+            + i64::from(derived.normaliser.magnitude_bits)
+            - 1
+            - i64::from(derived.fraction_bits),
+        gain: format!("{:.9}", exact::cordic_gain_f64(pipeline.cordic.iterations)),
+        divisor: pipeline.modulation.scheme.gain
+            * derived.in_phase_factor
+            * pipeline.modulation.frames_per_step as i64,
+        rows: table(&rows),
+        x_bits: derived.cordic_x.bits,
+        shift_bits,
+        factor_bits,
+        amplitude_bits: derived.amplitude.bits,
+        places_range: range(places_bits),
+        spare_bits: product_bits > derived.amplitude.bits + 1,
+        factor: literal(product_bits, factor.multiplier),
+        places: format!(
+            "{} + {}",
+            zero_extended("shift_i", shift_bits, places_bits),
+            literal(places_bits, least_places.into())
+        ),
+    }
+    .render()
+}
+
+#[derive(Template)]
+#[template(path = "offset.v", escape = "none")]
+struct Offset {
+    banner: String,
+    prefix: String,
+    fraction_bits: u32,
+    divisor: i64,
+    multiplier: i64,
+    factor_shift: u32,
+    rows: Vec<String>,
+    sum_bits: u32,
+    offset_bits: u32,
+    sum: String,
+    factor: String,
+}
+
+pub(super) fn offset(source: &Source, banner: String) -> askama::Result<String> {
+    let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
+    let factor = derived.offset_factor;
+    let product_bits = derived.offset.bits + factor.shift;
+    let divisor = pipeline.modulation.scheme.offset_gain() * pipeline.modulation.frames_per_step as i64;
+    let rows = [divisor, 100 * divisor + 1, derived.sample.max() * divisor]
+        .map(|sum| vec![sum.to_string(), model::offset(pipeline, sum).to_string()]);
+    Offset {
+        banner,
+        prefix: pipeline.prefix(),
+        fraction_bits: pipeline.output.offset_fraction_bits,
+        divisor,
+        multiplier: factor.multiplier,
+        factor_shift: factor.shift,
+        rows: table(&rows),
+        sum_bits: derived.offset_sum.bits,
+        offset_bits: derived.offset.bits,
+        sum: zero_extended("sum_i", derived.offset_sum.bits, product_bits),
+        factor: literal(product_bits, factor.multiplier),
+    }
+    .render()
+}
+
+#[derive(Template)]
+#[template(path = "distance.v", escape = "none")]
+struct Distance {
+    banner: String,
+    prefix: String,
+    range_m: String,
+    frequency_hz: f64,
+    unit_m: f64,
+    multiplier: i64,
+    factor_shift: u32,
+    rows: Vec<String>,
+    phase_bits: u32,
+    distance_bits: u32,
+    phase: String,
+    factor: String,
+}
+
+pub(super) fn distance(source: &Source, banner: String) -> askama::Result<String> {
+    let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
+    let factor = derived.distance_factor;
+    let product_bits = derived.distance.bits + factor.shift;
+    let quarter = 1 << (derived.phase.bits - 2);
+    let rows = [1, quarter, derived.phase.max()]
+        .map(|phase| vec![phase.to_string(), model::distance(pipeline, phase).to_string()]);
+    Distance {
+        banner,
+        prefix: pipeline.prefix(),
+        range_m: format!("{:.6}", crate::units::unambiguous_range_m(pipeline.modulation.frequency_hz)),
+        frequency_hz: pipeline.modulation.frequency_hz,
+        unit_m: pipeline.output.distance_unit_m,
+        multiplier: factor.multiplier,
+        factor_shift: factor.shift,
+        rows: table(&rows),
+        phase_bits: derived.phase.bits,
+        distance_bits: derived.distance.bits,
+        phase: zero_extended("phase_i", derived.phase.bits, product_bits),
+        factor: literal(product_bits, factor.multiplier),
+    }
+    .render()
+}
