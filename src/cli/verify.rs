@@ -142,14 +142,15 @@ impl Subject {
     fn print(&self, simulator: Simulator, golden: &Golden, outcome: &Outcome) {
         let verdict = if outcome.mismatches == 0 { "bit-exact" } else { "DIFFERS" };
         println!(
-            "{} in {}: {verdict}, {}: {} values of {} result sets, {} sets discarded as they should be, {} clocks",
+            "{} in {}: {verdict}, {}: {} values of {} result sets, {} sets discarded as they should be, {} clocks in {:.1} s",
             self.pipeline.name,
             simulator.name(),
             self.stimulus,
             outcome.values,
             golden.sets.len(),
             golden.discarded,
-            outcome.clocks
+            outcome.clocks,
+            outcome.simulation_s
         );
         for finding in &outcome.findings {
             println!("  {finding}");

@@ -48,12 +48,14 @@ impl Default for Traffic {
 }
 
 /// What a run showed.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outcome {
     /// Values that were compared.
     pub values: u64,
     /// Clocks that were simulated.
     pub clocks: u64,
+    /// Time that the simulation took, without building, s.
+    pub simulation_s: f64,
     /// Mismatches; 0 where model and Verilog agree.
     pub mismatches: u64,
     /// The first of them.
@@ -176,8 +178,10 @@ impl Run<'_> {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             command.args([format!("+dump={name}"), format!("+dump_from={from}"), format!("+dump_to={to}")]);
         }
+        let start = std::time::Instant::now();
         let (_, text) = output(command.current_dir(self.folder))?;
-        self.outcome(&text, source, golden)
+        let simulation_s = start.elapsed().as_secs_f64();
+        Ok(Outcome { simulation_s, ..self.outcome(&text, source, golden)? })
     }
 
     fn outcome(&self, text: &str, source: &Source, golden: &Golden) -> Result<Outcome> {
