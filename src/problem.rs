@@ -42,6 +42,11 @@ impl Problem {
         Self::in_file(path, format_args!("cannot {action}: {error}"))
     }
 
+    /// What was met there.
+    pub fn found(&self) -> &str {
+        &self.found
+    }
+
     /// What is allowed there.
     #[must_use]
     pub fn expected(mut self, expected: impl fmt::Display) -> Self {

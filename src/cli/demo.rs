@@ -2,7 +2,7 @@
 
 use super::process::Processed;
 use super::verify::Subject;
-use super::{SchemeArgument, agreement, golden_of_preset, progress};
+use super::{SchemeArgument, agreement, campaign, golden_of_preset, progress};
 use crate::artifact;
 use crate::cosim::{Simulator, Traffic};
 use crate::hdl::{Source, all_artifacts};
@@ -41,7 +41,8 @@ impl Demo {
         for (_, preset, recording) in PAIRS {
             let base = Pipeline::named(preset)?;
             let folder = self.campaign.join(recording);
-            subjects.push((preset, Subject::of_recording(&base, &folder, SchemeArgument::Specified, None)?));
+            let fitted = Subject::of_recordings(&base, &folder, SchemeArgument::Specified, None)?;
+            subjects.extend(fitted.into_iter().map(|subject| (preset, subject)));
         }
         let (mut values, mut mismatches) = (0, 0);
         for (spec, subject) in &subjects {
@@ -53,8 +54,9 @@ impl Demo {
         let mut rows = Vec::new();
         for (name, preset, recording) in PAIRS {
             let folder = self.campaign.join(recording);
-            let processed = Processed::new(&folder, &Pipeline::named(preset)?, SchemeArgument::Specified)?;
-            rows.push((name, recording, processed.range_errors()?));
+            for fitted in campaign::open(&folder, &Pipeline::named(preset)?, SchemeArgument::Specified)? {
+                rows.push((name, recording, Processed::new(fitted)?.range_errors()?));
+            }
         }
 
         println!();

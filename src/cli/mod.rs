@@ -1,5 +1,6 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
+mod campaign;
 mod demo;
 mod explain;
 mod generate;

@@ -1,29 +1,30 @@
 //! `vuris process`
 
+use super::campaign::{self, Fitted};
 use super::{SchemeArgument, progress};
 use crate::model::{PipelineModel, PixelRecord, StreamEvent, beats_of_set};
 use crate::problem::Result;
 use crate::ranging::{RangeErrors, range_errors};
 use crate::recording::Recording;
 use crate::recording::arrays::{NamedArray, Numbers, write_arrays};
-use crate::recording::matching::pipeline_for;
 use crate::reference::{DifferenceStatistics, ReferenceImages, reference_images};
 use crate::spec::Pipeline;
 use crate::units::{turns_of_code, unambiguous_range_m};
 use clap::Args;
 use std::f64::consts::TAU;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Run the integer model over a recording, and write phase, amplitude, offset, distance and flags as .npy
 #[derive(Debug, Args)]
 pub(super) struct Process {
-    /// Folder of the recording
+    /// Folder of the recording, or of a campaign: then all its recordings are processed
     recording: PathBuf,
     /// Specification: a preset (vuris, vuris-four-frame) or a TOML file
     #[arg(long, value_name = "FILE|PRESET")]
     spec: String,
-    /// Folder to write to: a new one, or one of an earlier run, which is replaced
+    /// Folder to write to: a new or empty one, or one of an earlier run, which is replaced; of a campaign, a folder in it
+    /// for each recording
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Scheme for the recording
@@ -41,10 +42,11 @@ pub(super) struct Processed {
 }
 
 impl Processed {
-    pub(super) fn new(folder: &Path, base: &Pipeline, scheme: SchemeArgument) -> Result<Self> {
-        let recording = Recording::open(folder)?;
-        let (pipeline, notes) = pipeline_for(&recording, base, scheme.into())?;
-        let records = progress::during("running the model", || records(&pipeline, &recording));
+    pub(super) fn new(fitted: Fitted) -> Result<Self> {
+        let Fitted { recording, pipeline, notes } = fitted;
+        let records = progress::during(format!("{}: running the model", recording.name), || {
+            records(&pipeline, &recording)
+        });
         let reference = reference_images(&pipeline, &recording.raw)?;
         Ok(Self { recording, pipeline, records, reference, notes })
     }
@@ -107,6 +109,27 @@ impl Processed {
         table
     }
 
+    fn print(&self) {
+        println!(
+            "{}: scheme {}, {} MHz",
+            self.recording.name,
+            self.pipeline.modulation.scheme.name,
+            self.pipeline.modulation.frequency_hz / 1e6
+        );
+        for note in &self.notes {
+            println!("  {note}");
+        }
+        self.print_differences();
+        match self.range_errors() {
+            Ok(errors) => println!(
+                "  range against the encoder, each pixel's own constant removed: RMS {:.2} mm a pixel, {:.2} mm of the sets' means",
+                1e3 * errors.pixels.rms,
+                1e3 * errors.set_means.rms
+            ),
+            Err(why) => println!("  no range against the encoder: {why}"),
+        }
+    }
+
     fn print_differences(&self) {
         let (output, reference) = (&self.pipeline.output, &self.reference);
         let of_codes = |bits: u32| f64::from(bits).exp2().recip();
@@ -164,27 +187,16 @@ fn records(pipeline: &Pipeline, recording: &Recording) -> Vec<PixelRecord> {
 impl Process {
     pub(super) fn run(self) -> Result<ExitCode> {
         let base = Pipeline::named(&self.spec)?;
-        let processed = Processed::new(&self.recording, &base, self.scheme)?;
-        write_arrays(&self.out, &processed.arrays(), &processed.provenance(&self.spec))?;
-        println!(
-            "{}: scheme {}, {} MHz",
-            processed.recording.name,
-            processed.pipeline.modulation.scheme.name,
-            processed.pipeline.modulation.frequency_hz / 1e6
-        );
-        for note in &processed.notes {
-            println!("  {note}");
+        let fitted = campaign::open(&self.recording, &base, self.scheme)?;
+        let campaign = !self.recording.join("recording.toml").is_file();
+        for fitted in fitted {
+            let name = fitted.recording.name.clone();
+            let out = if campaign { self.out.join(name) } else { self.out.clone() };
+            let processed = Processed::new(fitted)?;
+            write_arrays(&out, &processed.arrays(), &processed.provenance(&self.spec))?;
+            processed.print();
+            println!("  written: {}", out.display());
         }
-        processed.print_differences();
-        match processed.range_errors() {
-            Ok(errors) => println!(
-                "  range against the encoder, each pixel's own constant removed: RMS {:.2} mm a pixel, {:.2} mm of the sets' means",
-                1e3 * errors.pixels.rms,
-                1e3 * errors.set_means.rms
-            ),
-            Err(why) => println!("  no range against the encoder: {why}"),
-        }
-        println!("  written: {}", self.out.display());
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -1,12 +1,11 @@
 //! `vuris verify`
 
+use super::campaign::{self, Fitted};
 use super::generate::shown_spec;
 use super::{SchemeArgument, agreement, progress, scene_sets};
 use crate::cosim::{Outcome, Simulator, Traffic, simulate, standard};
 use crate::hdl::{Golden, Scenario, Segment, Source};
 use crate::problem::{Problem, Result};
-use crate::recording::Recording;
-use crate::recording::matching::pipeline_for;
 use crate::spec::Pipeline;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -21,7 +20,8 @@ pub(super) struct Verify {
     /// Simulator
     #[arg(long, value_enum, default_value_t)]
     simulator: SimulatorArgument,
-    /// Drive it with a recording's raw frames instead of corners, random frames, a scene, faults and resets
+    /// Drive it with the raw frames of a recording, or of all recordings of a campaign, instead of corners, random frames, a
+    /// scene, broken streams and resets
     #[arg(long, value_name = "DIR")]
     recording: Option<PathBuf>,
     /// Scheme for the recording
@@ -74,25 +74,40 @@ pub(super) struct Subject {
 }
 
 impl Subject {
-    /// The raw frames of the recording in `folder`; prints how the pipeline was adapted to them.
-    pub(super) fn of_recording(
+    /// The raw frames of the recording or campaign in `folder`, one subject for each pipeline that they need; prints how the
+    /// specification was adapted to them.
+    pub(super) fn of_recordings(
         base: &Pipeline,
         folder: &Path,
         scheme: SchemeArgument,
         sets: Option<u32>,
-    ) -> Result<Self> {
-        let recording = Recording::open(folder)?;
-        let (pipeline, notes) = pipeline_for(&recording, base, scheme.into())?;
-        for note in notes {
-            println!("{}: {note}", recording.name);
+    ) -> Result<Vec<Self>> {
+        let mut subjects: Vec<Self> = Vec::new();
+        for Fitted { recording, pipeline, notes } in campaign::open(folder, base, scheme)? {
+            for note in notes {
+                println!("{}: {note}", recording.name);
+            }
+            let raw = match sets {
+                Some(sets) => recording.raw.first_sets(sets as usize),
+                None => recording.raw,
+            };
+            let stimulus = format!("recording {}, {} sets", recording.name, raw.sets());
+            let segment = Segment::of_sets(&recording.name, &raw);
+            match subjects.iter_mut().find(|subject| subject.pipeline == pipeline) {
+                Some(subject) => {
+                    subject.scenario.segments.push(segment);
+                    subject.stimulus += &format!("; {stimulus}");
+                }
+                None => {
+                    subjects.push(Self {
+                        pipeline,
+                        scenario: Scenario { segments: vec![segment] },
+                        stimulus,
+                    });
+                }
+            }
         }
-        let raw = match sets {
-            Some(sets) => recording.raw.first_sets(sets as usize),
-            None => recording.raw,
-        };
-        let stimulus = format!("recording {}, {} sets", recording.name, raw.sets());
-        let scenario = Scenario { segments: vec![Segment::of_sets(&recording.name, &raw)] };
-        Ok(Self { pipeline, scenario, stimulus })
+        Ok(subjects)
     }
 
     /// One set of the simulated room.
@@ -164,21 +179,28 @@ impl Subject {
 impl Verify {
     pub(super) fn run(self) -> Result<ExitCode> {
         let base = Pipeline::named(&self.spec)?;
-        let subject = match &self.recording {
-            Some(folder) => Subject::of_recording(&base, folder, self.scheme, self.sets)?,
+        let subjects = match &self.recording {
+            Some(folder) => Subject::of_recordings(&base, folder, self.scheme, self.sets)?,
             None => {
                 let mut scenario = standard(&base, u64::from(self.seed));
                 let (raw, _) = scene_sets(&base, 1, Some(u64::from(self.seed)))?;
                 scenario.segments.push(Segment::of_sets("simulated scene", &raw));
                 let stimulus = "corners, random frames, broken streams, resets, a scene".to_owned();
-                Subject { pipeline: base, scenario, stimulus }
+                vec![Subject { pipeline: base, scenario, stimulus }]
             }
         };
         let traffic = Traffic { seed: self.seed, pause_percent: self.pause, stop_percent: self.stop };
         let mut agrees = true;
-        for &simulator in self.simulator.simulators() {
-            let outcome = subject.verify(&self.spec, simulator, traffic, self.work.as_deref())?;
-            agrees &= outcome.mismatches == 0;
+        for (number, subject) in subjects.iter().enumerate() {
+            // A folder of its own for each pipeline, where there are several.
+            let work = self.work.as_deref().map(|work| match subjects.len() {
+                1 => work.to_owned(),
+                _ => work.join(format!("{}-{number}", subject.pipeline.modulation.scheme.name)),
+            });
+            for &simulator in self.simulator.simulators() {
+                let outcome = subject.verify(&self.spec, simulator, traffic, work.as_deref())?;
+                agrees &= outcome.mismatches == 0;
+            }
         }
         Ok(agreement(agrees))
     }

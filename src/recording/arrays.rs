@@ -132,11 +132,15 @@ fn may_be_replaced(folder: &Path) -> Result<()> {
     let Ok(metadata) = folder.symlink_metadata() else { return Ok(()) };
     let refuse = |found: &str| {
         Problem::in_file(folder, found)
-            .expected(format_args!("a new folder, or one of earlier results (with {MANIFEST})"))
+            .expected(format_args!("a new or empty folder, or one of earlier results (with {MANIFEST})"))
             .remedy("choose another folder for the output, or move this one away")
     };
     if !metadata.is_dir() {
         return Err(refuse("is there and is not a folder"));
+    }
+    let mut entries = fs::read_dir(folder).map_err(|error| Problem::io(folder, "read", &error))?;
+    if entries.next().is_none() {
+        return Ok(());
     }
     let manifest = fs::read_to_string(folder.join(MANIFEST)).ok().and_then(|text| text.parse().ok());
     let manifest: toml::Table = manifest.ok_or_else(|| refuse("is there and was not written by vuris"))?;

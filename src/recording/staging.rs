@@ -13,7 +13,7 @@ pub(super) struct Staging {
 }
 
 impl Staging {
-    /// Begins a folder that is to stand at `target`, whose parent must be there.
+    /// Begins a folder that is to stand at `target`, whose parent is made where it is not there.
     pub fn beside(target: &Path) -> Result<Self> {
         if target.file_name().is_none() {
             return Err(
@@ -26,9 +26,10 @@ impl Staging {
         };
         let cannot = |error: std::io::Error| {
             Problem::io(target, "write", &error)
-                .expected(format_args!("the folder {} to be there and writable", parent.display()))
-                .remedy("create it, or choose another place for the output")
+                .expected(format_args!("a writable folder {}", parent.display()))
+                .remedy("choose another place for the output")
         };
+        fs::create_dir_all(parent).map_err(cannot)?;
         // Beside the target, since a folder cannot be renamed into another file system.
         let temporary = tempfile::Builder::new().prefix(".vuris-").tempdir_in(parent).map_err(cannot)?;
         let new = temporary.path().join("new");

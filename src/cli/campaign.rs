@@ -1,0 +1,63 @@
+//! A recording, or a campaign of recordings, with the pipeline that fits each.
+
+use super::SchemeArgument;
+use crate::problem::{Problem, Result};
+use crate::recording::Recording;
+use crate::recording::matching::{SchemeChoice, pipeline_for};
+use crate::spec::Pipeline;
+use std::path::{Path, PathBuf};
+
+/// A recording with its pipeline.
+pub(super) struct Fitted {
+    pub recording: Recording,
+    pub pipeline: Pipeline,
+    /// What the recording brought that differs from the specification, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// `folder` itself, or the recordings in it where it is a campaign: a folder without recording.toml whose folders have one.
+fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    let is_recording = |folder: &Path| folder.join("recording.toml").is_file();
+    if is_recording(folder) || !folder.is_dir() {
+        return Ok(vec![folder.to_owned()]);
+    }
+    let cannot = |error: std::io::Error| Problem::io(folder, "list", &error);
+    let mut recordings = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(cannot)? {
+        let path = entry.map_err(cannot)?.path();
+        if is_recording(&path) {
+            recordings.push(path);
+        }
+    }
+    recordings.sort();
+    // A folder that is neither is refused as the recording that it should be.
+    Ok(if recordings.is_empty() { vec![folder.to_owned()] } else { recordings })
+}
+
+/// Opens the recording or campaign in `folder`. Of a campaign, recordings whose phase steps do not fit are left out, with a line
+/// that says so, unless none is left.
+pub(super) fn open(folder: &Path, base: &Pipeline, scheme: SchemeArgument) -> Result<Vec<Fitted>> {
+    let folders = recordings_in(folder)?;
+    let campaign = folders != [folder];
+    let mut fitted = Vec::new();
+    let mut refusal = None;
+    for folder in folders {
+        let recording = Recording::open(&folder)?;
+        match pipeline_for(&recording, base, scheme.into()) {
+            Ok((pipeline, notes)) => fitted.push(Fitted { recording, pipeline, notes }),
+            Err(problem) => {
+                if campaign {
+                    println!("{}: left out: {}", recording.name, problem.found());
+                    if pipeline_for(&recording, base, SchemeChoice::Auto).is_ok() {
+                        println!("{}: `--scheme auto` takes it", recording.name);
+                    }
+                }
+                refusal = Some(problem);
+            }
+        }
+    }
+    match refusal {
+        Some(problem) if fitted.is_empty() => Err(problem),
+        _ => Ok(fitted),
+    }
+}
