@@ -1,7 +1,7 @@
 [[ banner ]]
 // Finds the place of every beat of the raw stream: its pixel, its phase step, and whether its set can be trusted.
 // A set is complete when all its frames have arrived, each with every line of the right length, and the stream then
-// either starts another frame or stays silent for SILENCE_CLOCKS. Anything else discards the set, counts it, and waits
+// either starts another frame or stays silent for longer than LAST_SILENCE clocks. Anything else discards the set, counts it, and waits
 // for the next start of set. It does not touch the samples.
 //
 //   in the middle of a set    | start of set               | the unfinished set is discarded, the new one begins
@@ -22,7 +22,7 @@ module [[ prefix ]]_framing #(
   parameter LAST_REPEAT    = [[ last_repeat ]],  // raw frames a phase step - 1
 [%- endif %]
   parameter LAST_STEP      = [[ last_step ]],  // phase steps a set - 1
-  parameter LAST_SILENCE   = [[ last_silence ]]   // clocks of silence that end a frame - 1
+  parameter LAST_SILENCE   = [[ last_silence ]]   // clocks of the longest pause inside a frame
 ) (
   input  wire                    clk_i,             // clock
   input  wire                    rst_ni,            // synchronous reset, active low

@@ -1,6 +1,7 @@
 [[ banner ]]
 // One word a pixel, one write and one read a clock, the read word registered: the form that synthesis infers as block
-// RAM. It does not define what a read returns while the same word is written: nobody here does that.
+// RAM. It does not define what a read returns while the same word is written: here that can only be a read in a set's
+// first frame, which nobody looks at.
 //
 //   write 5 <= a  | read 5 (next clock or later) | read_data_o = a
 //   read_i = 0    |                              | read_data_o stays

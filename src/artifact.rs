@@ -27,8 +27,13 @@ pub enum Difference {
     Missing(String),
     /// The file is there, and from this line (1-based) on it is another.
     Stale(String, usize),
-    /// The file is there, and should not be.
-    Surplus(String),
+    /// The file is there, and should not be. Writing removes it where it was generated here.
+    Surplus {
+        /// The file.
+        path: String,
+        /// Whether it says that it was generated here.
+        generated: bool,
+    },
 }
 
 impl fmt::Display for Difference {
@@ -36,7 +41,10 @@ impl fmt::Display for Difference {
         match self {
             Self::Missing(path) => write!(f, "missing {path}"),
             Self::Stale(path, line) => write!(f, "stale   {path}, from line {line}"),
-            Self::Surplus(path) => write!(f, "surplus {path}"),
+            Self::Surplus { path, generated: true } => write!(f, "surplus {path}"),
+            Self::Surplus { path, generated: false } => {
+                write!(f, "surplus {path}, which vuris did not write: remove it, or move it away")
+            }
         }
     }
 }
@@ -50,11 +58,13 @@ fn owned_folders(artifacts: &[Artifact]) -> Vec<&str> {
     folders
 }
 
-/// Every file below `folder`/`part`, as `part/…`.
+/// Every file below `folder`/`part`, as `part/…`. A link is a file of its own: what it points to is not ours.
 fn files_below(folder: &Path, part: &str) -> Result<Vec<String>> {
     let path = folder.join(part);
-    if !path.is_dir() {
-        return Ok(if path.exists() { vec![part.to_owned()] } else { Vec::new() });
+    match path.symlink_metadata() {
+        Err(_) => return Ok(Vec::new()),
+        Ok(metadata) if !metadata.is_dir() => return Ok(vec![part.to_owned()]),
+        Ok(_) => {}
     }
     let entries = std::fs::read_dir(&path).map_err(|error| Problem::io(&path, "list", &error))?;
     let mut files = Vec::new();
@@ -86,7 +96,8 @@ pub fn differences(folder: &Path, artifacts: &[Artifact]) -> Result<Vec<Differen
     for part in owned_folders(artifacts) {
         for path in files_below(folder, part)? {
             if !artifacts.iter().any(|artifact| artifact.path == path) {
-                found.push((path.clone(), Difference::Surplus(path)));
+                let generated = was_generated(&folder.join(&path));
+                found.push((path.clone(), Difference::Surplus { path, generated }));
             }
         }
     }
@@ -94,39 +105,63 @@ pub fn differences(folder: &Path, artifacts: &[Artifact]) -> Result<Vec<Differen
     Ok(found.into_iter().map(|(_, difference)| difference).collect())
 }
 
-/// Writes `artifacts` below `folder`: each beside its place first, then renamed, so that no file is ever half there.
-///
-/// A surplus file of an earlier run is removed only where it says that it was generated here.
+/// Writes `artifacts` below `folder`: every file beside its place first, then all renamed, so that a failure leaves what
+/// stood there. Surplus files of an earlier run are removed; a file that was not generated here is never replaced or removed.
 pub fn write(folder: &Path, artifacts: &[Artifact]) -> Result<()> {
-    let obstacle = |path: &Path, error: &std::io::Error| {
-        Problem::io(path, "write", error).remedy("choose a folder that is writable")
-    };
+    let mut staged = Vec::new();
     for artifact in artifacts {
         let path = folder.join(&artifact.path);
-        let parent = path.parent().unwrap_or(folder);
-        std::fs::create_dir_all(parent).map_err(|error| obstacle(parent, &error))?;
-        if std::fs::read(&path).is_ok_and(|bytes| bytes == artifact.text.as_bytes()) {
-            continue;
+        if !std::fs::read(&path).is_ok_and(|bytes| bytes == artifact.text.as_bytes()) {
+            may_be_replaced(&path)?;
+            staged.push((stage(&path, &artifact.text)?, path));
         }
-        let beside = tempfile::NamedTempFile::new_in(parent).map_err(|error| obstacle(parent, &error))?;
-        std::fs::write(beside.path(), &artifact.text).map_err(|error| obstacle(beside.path(), &error))?;
-        let readable = std::os::unix::fs::PermissionsExt::from_mode(0o644);
-        beside.as_file().set_permissions(readable).map_err(|error| obstacle(&path, &error))?;
+    }
+    for (beside, path) in staged {
         beside.persist(&path).map_err(|error| obstacle(&path, &error.error))?;
     }
     for difference in differences(folder, artifacts)? {
-        if let Difference::Surplus(path) = difference {
+        if let Difference::Surplus { path, generated: true } = difference {
             let path = folder.join(path);
-            if was_generated(&path) {
-                std::fs::remove_file(&path).map_err(|error| Problem::io(&path, "remove", &error))?;
-            }
+            std::fs::remove_file(&path).map_err(|error| Problem::io(&path, "remove", &error))?;
         }
     }
     Ok(())
 }
 
-/// Whether the file at `path` says in its first lines that it was generated here.
+fn obstacle(path: &Path, error: &std::io::Error) -> Problem {
+    Problem::io(path, "write", error).remedy("choose a folder that is writable")
+}
+
+/// A new file with `text` beside `path`, that vanishes unless it is put there.
+fn stage(path: &Path, text: &str) -> Result<tempfile::NamedTempFile> {
+    let parent = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(parent).map_err(|error| obstacle(parent, &error))?;
+    let beside = tempfile::NamedTempFile::new_in(parent).map_err(|error| obstacle(parent, &error))?;
+    std::fs::write(beside.path(), text).map_err(|error| obstacle(path, &error))?;
+    let readable = std::os::unix::fs::PermissionsExt::from_mode(0o644);
+    beside.as_file().set_permissions(readable).map_err(|error| obstacle(path, &error))?;
+    Ok(beside)
+}
+
+/// Refuses a path at which something stands that was not generated here.
+fn may_be_replaced(path: &Path) -> Result<()> {
+    match path.symlink_metadata() {
+        // Nothing is lost with an empty file.
+        Ok(metadata) if metadata.is_file() && metadata.len() == 0 => Ok(()),
+        Ok(_) if !was_generated(path) => {
+            Err(Problem::in_file(path, "is there and was not generated by vuris")
+                .expected("nothing there, or a file of an earlier run")
+                .remedy("choose another folder, or move this file away"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether the regular file at `path` says in its first lines that it was generated here.
 fn was_generated(path: &Path) -> bool {
+    if !path.symlink_metadata().is_ok_and(|metadata| metadata.is_file()) {
+        return false;
+    }
     let text = std::fs::read(path).unwrap_or_default();
     let head = String::from_utf8_lossy(&text[..text.len().min(400)]).into_owned();
     head.lines().take(4).any(|line| line.contains("Generated by `vuris "))

@@ -19,11 +19,12 @@ module bench_taps (
   output wire        m_axis_tuser,     // result stream
   output wire [31:0] sets_done_o,      // counter
   output wire [31:0] sets_discarded_o, // counter
+  output wire [31:0] stall_clocks_o,   // counter
   output wire [[ "[" ]][[ bench.stage_count - 1 ]]:0] strobe_o,         // a pixel passes the stage
   output wire [[ "[" ]][[ bench.channel_bits - 1 ]]:0] values_o          // what it carries
 );
 
-  [[ bench.prefix ]] dut (
+  [[ bench.top ]] dut (
     .clk_i           (clk_i),
     .rst_ni          (rst_ni),
     .s_axis_tvalid   (s_axis_tvalid),
@@ -37,7 +38,8 @@ module bench_taps (
     .m_axis_tlast    (m_axis_tlast),
     .m_axis_tuser    (m_axis_tuser),
     .sets_done_o     (sets_done_o),
-    .sets_discarded_o(sets_discarded_o)
+    .sets_discarded_o(sets_discarded_o),
+    .stall_clocks_o  (stall_clocks_o)
   );
 [% for stage in bench.stages %]
   // [[ stage.name ]]

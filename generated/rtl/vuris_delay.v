@@ -31,9 +31,7 @@ module vuris_delay #(
 
   integer stage;
   always @(posedge clk_i) begin
-    if (!rst_ni) begin
-      valid_q <= {CLOCKS{1'b0}};
-    end else if (advance_i) begin
+    if (advance_i) begin
       valid_q[0]        <= valid_i;
       data_q[WIDTH-1:0] <= data_i;
       for (stage = 1; stage < CLOCKS; stage = stage + 1) begin
@@ -41,6 +39,7 @@ module vuris_delay #(
         data_q[stage*WIDTH +: WIDTH] <= data_q[(stage-1)*WIDTH +: WIDTH];
       end
     end
+    if (!rst_ni) valid_q <= {CLOCKS{1'b0}};
   end
 
 endmodule

@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Finds the place of every beat of the raw stream: its pixel, its phase step, and whether its set can be trusted.
 // A set is complete when all its frames have arrived, each with every line of the right length, and the stream then
-// either starts another frame or stays silent for SILENCE_CLOCKS. Anything else discards the set, counts it, and waits
+// either starts another frame or stays silent for longer than LAST_SILENCE clocks. Anything else discards the set, counts it, and waits
 // for the next start of set. It does not touch the samples.
 //
 //   in the middle of a set    | start of set               | the unfinished set is discarded, the new one begins
@@ -17,11 +17,11 @@ module vuris_framing #(
   parameter ROW_BITS       = 7,  // a row's number
   parameter ADDRESS_BITS   = 15,  // a pixel's number
   parameter STEP_BITS      = 3,  // a phase step's number
-  parameter SILENCE_BITS   = 6,  // the silence that ends a frame
+  parameter SILENCE_BITS   = 7,  // the silence that ends a frame
   parameter LAST_COLUMN    = 159,  // width - 1
   parameter LAST_ROW       = 119,  // height - 1
   parameter LAST_STEP      = 4,  // phase steps a set - 1
-  parameter LAST_SILENCE   = 63   // clocks of silence that end a frame - 1
+  parameter LAST_SILENCE   = 64   // clocks of the longest pause inside a frame
 ) (
   input  wire                    clk_i,             // clock
   input  wire                    rst_ni,            // synchronous reset, active low

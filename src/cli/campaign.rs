@@ -1,6 +1,7 @@
 //! A recording, or a campaign of recordings, with the pipeline that fits each.
 
 use super::SchemeArgument;
+use super::print::say;
 use crate::problem::{Problem, Result};
 use crate::recording::Recording;
 use crate::recording::matching::{SchemeChoice, pipeline_for};
@@ -47,9 +48,9 @@ pub(super) fn open(folder: &Path, base: &Pipeline, scheme: SchemeArgument) -> Re
             Ok((pipeline, notes)) => fitted.push(Fitted { recording, pipeline, notes }),
             Err(problem) => {
                 if campaign {
-                    println!("{}: left out: {}", recording.name, problem.found());
+                    say!("{}: left out: {}", recording.name, problem.found());
                     if pipeline_for(&recording, base, SchemeChoice::Auto).is_ok() {
-                        println!("{}: `--scheme auto` takes it", recording.name);
+                        say!("{}: `--scheme auto` takes it", recording.name);
                     }
                 }
                 refusal = Some(problem);

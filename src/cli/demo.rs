@@ -1,5 +1,6 @@
 //! `vuris demo`
 
+use super::print::say;
 use super::process::Processed;
 use super::verify::Subject;
 use super::{SchemeArgument, agreement, campaign, golden_of_preset, progress};
@@ -33,10 +34,6 @@ impl Demo {
         let vuris = Pipeline::named("vuris")?;
         let golden = progress::during("running the model", || golden_of_preset(&vuris))?;
         let artifacts = all_artifacts(&Source { pipeline: &vuris, spec: "vuris" }, &golden);
-        let folder = self.out.join("vuris");
-        artifact::write(&folder, &artifacts)?;
-        println!("generated {}: {} files of specification vuris", folder.display(), artifacts.len());
-
         let mut subjects = vec![("vuris", Subject::scene(vuris, 1)?)];
         for (_, preset, recording) in PAIRS {
             let base = Pipeline::named(preset)?;
@@ -44,11 +41,15 @@ impl Demo {
             let fitted = Subject::of_recordings(&base, &folder, SchemeArgument::Specified, None)?;
             subjects.extend(fitted.into_iter().map(|subject| (preset, subject)));
         }
+        let folder = self.out.join("vuris");
+        artifact::write(&folder, &artifacts)?;
+        say!("generated {}: {} files of specification vuris", folder.display(), artifacts.len());
         let (mut values, mut mismatches) = (0, 0);
         for (spec, subject) in &subjects {
-            let outcome = subject.verify(spec, Simulator::Verilator, Traffic::default(), None)?;
-            values += outcome.values;
-            mismatches += outcome.mismatches;
+            for outcome in subject.verify(spec, Simulator::Verilator, &[Traffic::default()], None)? {
+                values += outcome.values;
+                mismatches += outcome.mismatches;
+            }
         }
 
         let mut rows = Vec::new();
@@ -59,14 +60,14 @@ impl Demo {
             }
         }
 
-        println!();
-        println!(
+        say!();
+        say!(
             "bit-exact: {}, {values} values compared in Verilator at every stage",
             if mismatches == 0 { "yes" } else { "NO" }
         );
-        println!("range error against the encoder of {}:", self.campaign.display());
+        say!("range error against the encoder of {}:", self.campaign.display());
         for (name, recording, RangeErrors { pixels, set_means, .. }) in rows {
-            println!(
+            say!(
                 "  {name:<12} {recording:<10} RMS {:5.1} mm over the target's mean, {:5.1} mm a pixel (noise included)",
                 1e3 * set_means.rms,
                 1e3 * pixels.rms

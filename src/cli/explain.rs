@@ -1,5 +1,6 @@
 //! `vuris explain`
 
+use super::print::say;
 use crate::problem::Result;
 use crate::report::explanation;
 use crate::spec::Pipeline;
@@ -21,9 +22,9 @@ impl Explain {
     pub(super) fn run(self) -> Result<ExitCode> {
         let pipeline = Pipeline::named(&self.spec)?;
         if self.toml {
-            print!("{}", pipeline.to_toml());
+            say!("{}", pipeline.to_toml().trim_end());
         } else {
-            print!("{}", explanation(&pipeline));
+            say!("{}", explanation(&pipeline).trim_end());
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -1,7 +1,8 @@
 //! `vuris generate`
 
+use super::print::{counted, say};
 use super::{agreement, golden_of_preset, progress};
-use crate::artifact;
+use crate::artifact::{self, Difference};
 use crate::hdl::{Source, all_artifacts};
 use crate::problem::Result;
 use crate::spec::Pipeline;
@@ -23,35 +24,56 @@ pub(super) struct Generate {
     check: bool,
 }
 
-/// What a banner calls the specification: a preset's name, or a file's without its folder.
-pub(super) fn shown_spec(spec: &str) -> &str {
-    Path::new(spec).file_name().and_then(|name| name.to_str()).unwrap_or(spec)
+/// What a banner calls the specification: a preset's name, or a file's without its folder, with nothing that could end a
+/// comment.
+pub(super) fn shown_spec(spec: &str) -> String {
+    let name = Path::new(spec).file_name().and_then(|name| name.to_str()).unwrap_or(spec);
+    name.chars().map(|c| if c.is_ascii_graphic() && c != '`' && c != '\\' { c } else { '_' }).collect()
+}
+
+/// `argument` as a shell takes it for one word.
+fn quoted(argument: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./:".contains(c);
+    if argument.chars().all(plain) {
+        argument.to_owned()
+    } else {
+        format!("'{}'", argument.replace('\'', "'\\''"))
+    }
 }
 
 impl Generate {
     pub(super) fn run(self) -> Result<ExitCode> {
         let pipeline = Pipeline::named(&self.spec)?;
-        let source = Source { pipeline: &pipeline, spec: shown_spec(&self.spec) };
+        let spec = shown_spec(&self.spec);
+        let source = Source { pipeline: &pipeline, spec: &spec };
         let golden = progress::during("running the model", || golden_of_preset(&pipeline))?;
         let artifacts = all_artifacts(&source, &golden);
         if !self.check {
             artifact::write(&self.out, &artifacts)?;
-            println!("{}: {} files of specification {}", self.out.display(), artifacts.len(), pipeline.name);
+            say!("{}: {} files of specification {}", self.out.display(), artifacts.len(), pipeline.name);
             return Ok(ExitCode::SUCCESS);
         }
         let differences = artifact::differences(&self.out, &artifacts)?;
         for difference in &differences {
-            println!("{difference}");
+            say!("{difference}");
         }
+        let strangers =
+            |difference: &&Difference| matches!(difference, Difference::Surplus { generated: false, .. });
         if differences.is_empty() {
-            println!("{}: {} files are up to date", self.out.display(), artifacts.len());
-        } else {
-            println!(
-                "{}: {} files differ; `vuris generate --spec {} --out {}` writes them",
+            say!("{}: {} files are up to date", self.out.display(), artifacts.len());
+        } else if differences.iter().filter(strangers).count() == differences.len() {
+            say!(
+                "{}: all {} generated files are up to date, beside files to remove",
                 self.out.display(),
-                differences.len(),
-                self.spec,
-                self.out.display()
+                artifacts.len()
+            );
+        } else {
+            say!(
+                "{}: {} differ; `vuris generate --spec {} --out {}` writes them",
+                self.out.display(),
+                counted(differences.len(), "file"),
+                quoted(&self.spec),
+                quoted(&self.out.to_string_lossy())
             );
         }
         Ok(agreement(differences.is_empty()))

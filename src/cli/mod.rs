@@ -4,6 +4,7 @@ mod campaign;
 mod demo;
 mod explain;
 mod generate;
+mod print;
 mod process;
 mod progress;
 mod scene;

@@ -1,12 +1,13 @@
 //! `vuris process`
 
 use super::campaign::{self, Fitted};
+use super::print::say;
 use super::{SchemeArgument, progress};
 use crate::model::{PipelineModel, PixelRecord, StreamEvent, beats_of_set};
 use crate::problem::Result;
 use crate::ranging::{RangeErrors, range_errors};
 use crate::recording::Recording;
-use crate::recording::arrays::{NamedArray, Numbers, write_arrays};
+use crate::recording::arrays::{NamedArray, Numbers, may_be_replaced, write_arrays};
 use crate::reference::{DifferenceStatistics, ReferenceImages, reference_images};
 use crate::spec::Pipeline;
 use crate::units::{turns_of_code, unambiguous_range_m};
@@ -106,31 +107,36 @@ impl Processed {
         put("offset_dn_per_code", f64::from(output.offset_fraction_bits).exp2().recip().into());
         put("distance_m_per_code", output.distance_unit_m.into());
         put("flags", "bit 0: valid, bit 1: saturated".into());
+        put(
+            "phase_offset",
+            "not added: add phase_offset_rad of sets.csv to a phase to get 4 pi f d / c".into(),
+        );
         table
     }
 
-    fn print(&self) {
-        println!(
+    fn print(&self) -> Result<()> {
+        say!(
             "{}: scheme {}, {} MHz",
             self.recording.name,
             self.pipeline.modulation.scheme.name,
             self.pipeline.modulation.frequency_hz / 1e6
         );
         for note in &self.notes {
-            println!("  {note}");
+            say!("  {note}");
         }
-        self.print_differences();
+        self.print_differences()?;
         match self.range_errors() {
-            Ok(errors) => println!(
+            Ok(errors) => say!(
                 "  range against the encoder, each pixel's own constant removed: RMS {:.2} mm a pixel, {:.2} mm of the sets' means",
                 1e3 * errors.pixels.rms,
                 1e3 * errors.set_means.rms
             ),
-            Err(why) => println!("  no range against the encoder: {why}"),
+            Err(why) => say!("  no range against the encoder: {why}"),
         }
+        Ok(())
     }
 
-    fn print_differences(&self) {
+    fn print_differences(&self) -> Result<()> {
         let (output, reference) = (&self.pipeline.output, &self.reference);
         let of_codes = |bits: u32| f64::from(bits).exp2().recip();
         let unambiguous_m = unambiguous_range_m(self.pipeline.modulation.frequency_hz);
@@ -139,7 +145,7 @@ impl Processed {
         let amplitude_dn = values(&|r| r.amplitude as f64 * of_codes(output.amplitude_fraction_bits));
         let offset_dn = values(&|r| r.offset as f64 * of_codes(output.offset_fraction_bits));
         let phase_turns = values(&|r| turns_of_code(r.phase, output.phase_bits).to_num());
-        println!("  {:<22} {:>12} {:>12} {:>12}", "integer - float", "mean", "RMS", "largest");
+        say!("  {:<22} {:>12} {:>12} {:>12}", "integer - float", "mean", "RMS", "largest");
         for (name, scale, integers, floats, period) in [
             ("phase, mrad", 1e3 * TAU, &phase_turns, &reference.phase_turns, Some(1.0)),
             ("amplitude, DN", 1.0, &amplitude_dn, &reference.amplitude_dn, None),
@@ -152,22 +158,18 @@ impl Processed {
             if let Some(DifferenceStatistics { mean, rms, max_abs, .. }) =
                 DifferenceStatistics::between(&valid(integers), &valid(floats), period)
             {
-                println!(
-                    "  {name:<22} {:>+12.5} {:>12.5} {:>12.5}",
-                    mean * scale,
-                    rms * scale,
-                    max_abs * scale
-                );
+                say!("  {name:<22} {:>+12.5} {:>12.5} {:>12.5}", mean * scale, rms * scale, max_abs * scale);
             }
         }
         let count = |flag: fn(&PixelRecord) -> bool| self.records.iter().filter(|r| flag(r)).count();
-        println!(
+        say!(
             "  {} pixels in {} sets; {} without a phase, {} saturated",
             self.records.len(),
             self.recording.raw.sets(),
             count(|r| !r.valid),
             count(|r| r.sums.saturated)
         );
+        Ok(())
     }
 }
 
@@ -180,22 +182,26 @@ fn records(pipeline: &Pipeline, recording: &Recording) -> Vec<PixelRecord> {
             records.extend(model.advance(StreamEvent::Beat(beat)).into_iter().flatten());
         }
     }
-    records.extend(model.advance(StreamEvent::Silence).into_iter().flatten());
+    records.extend(model.advance(StreamEvent::Rest).into_iter().flatten());
     records
 }
 
 impl Process {
     pub(super) fn run(self) -> Result<ExitCode> {
         let base = Pipeline::named(&self.spec)?;
-        let fitted = campaign::open(&self.recording, &base, self.scheme)?;
         let campaign = !self.recording.join("recording.toml").is_file();
-        for fitted in fitted {
-            let name = fitted.recording.name.clone();
-            let out = if campaign { self.out.join(name) } else { self.out.clone() };
+        let mut all = Vec::new();
+        for fitted in campaign::open(&self.recording, &base, self.scheme)? {
+            let out = if campaign { self.out.join(&fitted.recording.name) } else { self.out.clone() };
+            // Every place is looked at before the first result is written.
+            may_be_replaced(&out)?;
+            all.push((fitted, out));
+        }
+        for (fitted, out) in all {
             let processed = Processed::new(fitted)?;
             write_arrays(&out, &processed.arrays(), &processed.provenance(&self.spec))?;
-            processed.print();
-            println!("  written: {}", out.display());
+            processed.print()?;
+            say!("  written: {}", out.display());
         }
         Ok(ExitCode::SUCCESS)
     }

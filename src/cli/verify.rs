@@ -2,8 +2,9 @@
 
 use super::campaign::{self, Fitted};
 use super::generate::shown_spec;
+use super::print::{counted, say};
 use super::{SchemeArgument, agreement, progress, scene_sets};
-use crate::cosim::{Outcome, Simulator, Traffic, simulate, standard};
+use crate::cosim::{Outcome, Simulation, Simulator, Traffic, standard};
 use crate::hdl::{Golden, Scenario, Segment, Source};
 use crate::problem::{Problem, Result};
 use crate::spec::Pipeline;
@@ -33,12 +34,12 @@ pub(super) struct Verify {
     /// Seed of random frames, pauses and stops
     #[arg(long, default_value_t = 1)]
     seed: u32,
-    /// Percent of clocks without input
-    #[arg(long, value_name = "PERCENT", default_value_t = 25, value_parser = clap::value_parser!(u32).range(0..=90))]
-    pause: u32,
-    /// Percent of clocks without output
-    #[arg(long, value_name = "PERCENT", default_value_t = 25, value_parser = clap::value_parser!(u32).range(0..=90))]
-    stop: u32,
+    /// Percent of clocks without input [default: 25; without a recording four mixtures of pauses and stops]
+    #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u32).range(0..=90))]
+    pause: Option<u32>,
+    /// Percent of clocks without output [default: like --pause]
+    #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u32).range(0..=90))]
+    stop: Option<u32>,
     /// Keep Verilog, vectors, build and waveforms in this folder [default: a temporary one, kept only after a mismatch]
     #[arg(long, value_name = "DIR")]
     work: Option<PathBuf>,
@@ -85,7 +86,7 @@ impl Subject {
         let mut subjects: Vec<Self> = Vec::new();
         for Fitted { recording, pipeline, notes } in campaign::open(folder, base, scheme)? {
             for note in notes {
-                println!("{}: {note}", recording.name);
+                say!("{}: {note}", recording.name);
             }
             let raw = match sets {
                 Some(sets) => recording.raw.first_sets(sets as usize),
@@ -117,62 +118,73 @@ impl Subject {
         Ok(Self { pipeline, scenario, stimulus: "simulated scene".to_owned() })
     }
 
-    /// Builds and runs it in `simulator`, prints what it showed, and keeps `work` where something differs.
+    /// Builds it for `simulator`, runs it with each of `traffics`, prints what it showed, and keeps the files where something
+    /// differs.
     pub(super) fn verify(
         &self,
         spec: &str,
         simulator: Simulator,
-        traffic: Traffic,
+        traffics: &[Traffic],
         work: Option<&Path>,
-    ) -> Result<Outcome> {
-        let source = Source { pipeline: &self.pipeline, spec: shown_spec(spec) };
-        let golden = progress::during("running the model", || Golden::new(&self.pipeline, &self.scenario));
-        let temporary = match work {
-            Some(_) => None,
-            None => Some(
-                tempfile::Builder::new()
-                    .prefix("vuris-verify-")
-                    .tempdir()
-                    .map_err(|error| Problem::io(&std::env::temp_dir(), "write", &error))?,
-            ),
+    ) -> Result<Vec<Outcome>> {
+        let Some(folder) = work else {
+            let temporary = tempfile::Builder::new()
+                .prefix("vuris-verify-")
+                .tempdir()
+                .map_err(|error| Problem::io(&std::env::temp_dir(), "write", &error))?;
+            let result = self.verify_in(spec, simulator, traffics, temporary.path());
+            if !result.as_ref().is_ok_and(|outcomes| outcomes.iter().all(|outcome| outcome.mismatches == 0)) {
+                say!("  kept: {}", temporary.keep().display());
+            }
+            return result;
         };
-        let folder = match (&temporary, work) {
-            (Some(temporary), _) => temporary.path(),
-            (None, Some(work)) => work,
-            (None, None) => Path::new("."),
-        };
-        let outcome = progress::during(
-            format!("{}: building and running {}", simulator.name(), self.stimulus),
-            || simulate(&source, &golden, simulator, traffic, folder, &|_| {}),
-        )?;
-        self.print(simulator, &golden, &outcome);
-        if outcome.mismatches > 0
-            && let Some(temporary) = temporary
-        {
-            println!("  kept: {}", temporary.keep().display());
-        }
-        Ok(outcome)
+        self.verify_in(spec, simulator, traffics, folder)
     }
 
-    fn print(&self, simulator: Simulator, golden: &Golden, outcome: &Outcome) {
+    fn verify_in(
+        &self,
+        spec: &str,
+        simulator: Simulator,
+        traffics: &[Traffic],
+        folder: &Path,
+    ) -> Result<Vec<Outcome>> {
+        let spec = shown_spec(spec);
+        let source = Source { pipeline: &self.pipeline, spec: &spec };
+        let golden = progress::during("running the model", || Golden::new(&self.pipeline, &self.scenario));
+        let simulation = progress::during(format!("{}: building", simulator.name()), || {
+            Simulation::build(source, &golden, simulator, folder, &|_| {})
+        })?;
+        let mut outcomes = Vec::new();
+        for &traffic in traffics {
+            let Traffic { pause_percent, stop_percent, .. } = traffic;
+            let what = format!("{}, {pause_percent} % pauses, {stop_percent} % stops", self.stimulus);
+            let running = format!("{}: running {what}", simulator.name());
+            let outcome = progress::during(running, || simulation.run(traffic))?;
+            self.print(simulator, &golden, &what, &outcome)?;
+            outcomes.push(outcome);
+        }
+        Ok(outcomes)
+    }
+
+    fn print(&self, simulator: Simulator, golden: &Golden, what: &str, outcome: &Outcome) -> Result<()> {
         let verdict = if outcome.mismatches == 0 { "bit-exact" } else { "DIFFERS" };
-        println!(
-            "{} in {}: {verdict}, {}: {} values of {} result sets, {} sets discarded as they should be, {} clocks in {:.1} s",
+        say!(
+            "{} in {}: {verdict}: {what}: {} values of {}, {} discarded as due, {} clocks in {:.1} s",
             self.pipeline.name,
             simulator.name(),
-            self.stimulus,
             outcome.values,
-            golden.sets.len(),
-            golden.discarded,
+            counted(golden.sets.len(), "result set"),
+            counted(golden.discarded as usize, "set"),
             outcome.clocks,
             outcome.simulation_s
         );
         for finding in &outcome.findings {
-            println!("  {finding}");
+            say!("  {finding}");
         }
         if let Some(waveform) = &outcome.waveform {
-            println!("  waveform: {}", waveform.display());
+            say!("  waveform: {}", waveform.display());
         }
+        Ok(())
     }
 }
 
@@ -189,7 +201,7 @@ impl Verify {
                 vec![Subject { pipeline: base, scenario, stimulus }]
             }
         };
-        let traffic = Traffic { seed: self.seed, pause_percent: self.pause, stop_percent: self.stop };
+        let single = self.recording.is_some() || self.pause.is_some() || self.stop.is_some();
         let mut agrees = true;
         for (number, subject) in subjects.iter().enumerate() {
             // A folder of its own for each pipeline, where there are several.
@@ -198,10 +210,38 @@ impl Verify {
                 _ => work.join(format!("{}-{number}", subject.pipeline.modulation.scheme.name)),
             });
             for &simulator in self.simulator.simulators() {
-                let outcome = subject.verify(&self.spec, simulator, traffic, work.as_deref())?;
-                agrees &= outcome.mismatches == 0;
+                let traffics = if single {
+                    let Traffic { seed, pause_percent, stop_percent } =
+                        Traffic { seed: self.seed, ..Traffic::default() };
+                    vec![Traffic {
+                        seed,
+                        pause_percent: self.pause.unwrap_or(pause_percent),
+                        stop_percent: self.stop.unwrap_or(stop_percent),
+                    }]
+                } else {
+                    profiles(subject, simulator, self.seed)?
+                };
+                let outcomes = subject.verify(&self.spec, simulator, &traffics, work.as_deref())?;
+                agrees &= outcomes.iter().all(|outcome| outcome.mismatches == 0);
             }
         }
         Ok(agreement(agrees))
     }
+}
+
+/// Pixels from which Icarus, a hundred times slower than Verilator, runs only the first mixture of pauses and stops.
+const SLOW_PIXELS: usize = 4096;
+
+/// All mixtures of pauses and stops, or with a line that says so the first.
+fn profiles(subject: &Subject, simulator: Simulator, seed: u32) -> Result<Vec<Traffic>> {
+    let mut profiles = Traffic::profiles(seed).to_vec();
+    let pixels = subject.pipeline.geometry().pixels();
+    if simulator == Simulator::Icarus && pixels > SLOW_PIXELS {
+        say!(
+            "icarus: one of {} mixtures of pauses and stops, since {pixels} pixels take it minutes (verilator runs all; --pause and --stop choose another)",
+            profiles.len()
+        );
+        profiles.truncate(1);
+    }
+    Ok(profiles)
 }

@@ -37,13 +37,25 @@ pub struct Traffic {
     pub seed: u32,
     /// Percent of clocks without input.
     pub pause_percent: u32,
-    /// Percent of clocks without output.
+    /// Percent of clocks without output, in bursts.
     pub stop_percent: u32,
 }
 
 impl Default for Traffic {
     fn default() -> Self {
         Self { seed: 1, pause_percent: 25, stop_percent: 25 }
+    }
+}
+
+impl Traffic {
+    /// Mixed; as fast as it goes; results that are hardly taken, so that drains fall behind the next set; samples that
+    /// hardly come.
+    pub fn profiles(seed: u32) -> [Self; 4] {
+        [(25, 25), (0, 0), (0, 80), (70, 0)].map(|(pause_percent, stop_percent)| Self {
+            seed,
+            pause_percent,
+            stop_percent,
+        })
     }
 }
 
@@ -60,6 +72,8 @@ pub struct Outcome {
     pub mismatches: u64,
     /// The first of them.
     pub findings: Vec<Finding>,
+    /// Clocks in which a sample was offered and not taken (Verilator only).
+    pub stalled_clocks: u64,
     /// First clock at which a pixel passed each stage (Verilator only).
     pub first_clocks: Vec<u64>,
     /// A waveform of the clocks around the first mismatch.
@@ -69,7 +83,17 @@ pub struct Outcome {
 /// Clocks of the waveform before and after a mismatch.
 const WAVEFORM_CLOCKS: u64 = 200;
 
-/// Writes everything to `folder`, builds it with `simulator`, runs it, and compares.
+/// Files in a folder, built for one simulator.
+#[derive(Debug)]
+pub struct Simulation<'a> {
+    source: Source<'a>,
+    golden: &'a Golden,
+    simulator: Simulator,
+    folder: &'a Path,
+    program: PathBuf,
+}
+
+/// Builds the simulation, runs it once with `traffic`, and compares.
 ///
 /// `fault` may change the files before they are built: the way in which the benches are shown to fail.
 pub fn simulate(
@@ -80,32 +104,47 @@ pub fn simulate(
     folder: &Path,
     fault: &dyn Fn(&mut Vec<artifact::Artifact>),
 ) -> Result<Outcome> {
-    let mut artifacts = all_artifacts(source, golden);
-    fault(&mut artifacts);
-    artifact::write(folder, &artifacts)?;
-    let run = Run { simulator, folder, traffic };
-    let program = run.build(false)?;
-    let mut outcome = run.start(&program, source, golden, None)?;
-    if let Some(clock) = outcome.findings.iter().filter_map(|finding| finding.clock).min() {
-        // The same seeds give the same clocks: only now a waveform is worth its time.
-        let (from, to) = (clock.saturating_sub(WAVEFORM_CLOCKS), clock + WAVEFORM_CLOCKS);
-        let waveform = folder.join(format!("mismatch-{}.fst", simulator.name()));
-        let program = run.build(true)?;
-        run.start(&program, source, golden, Some((&waveform, from, to)))?;
-        outcome.waveform = waveform.is_file().then_some(waveform);
+    Simulation::build(*source, golden, simulator, folder, fault)?.run(traffic)
+}
+
+impl<'a> Simulation<'a> {
+    /// Writes everything to `folder` and builds it for `simulator`.
+    pub fn build(
+        source: Source<'a>,
+        golden: &'a Golden,
+        simulator: Simulator,
+        folder: &'a Path,
+        fault: &dyn Fn(&mut Vec<artifact::Artifact>),
+    ) -> Result<Self> {
+        if folder.to_string_lossy().contains(char::is_whitespace) {
+            return Err(Problem::in_file(folder, "has a space in its path")
+                .expected("a folder in whose path the simulators' makefiles can build")
+                .remedy("choose another with --work, or set TMPDIR"));
+        }
+        let mut artifacts = all_artifacts(&source, golden);
+        fault(&mut artifacts);
+        artifact::write(folder, &artifacts)?;
+        let mut simulation = Self { source, golden, simulator, folder, program: PathBuf::new() };
+        simulation.program = simulation.compile(false)?;
+        Ok(simulation)
     }
-    Ok(outcome)
-}
 
-struct Run<'a> {
-    simulator: Simulator,
-    folder: &'a Path,
-    traffic: Traffic,
-}
+    /// Runs it and compares; after a mismatch again, with a waveform of the clocks around the first.
+    pub fn run(&self, traffic: Traffic) -> Result<Outcome> {
+        let mut outcome = self.start(&self.program, traffic, None)?;
+        if let Some(clock) = outcome.findings.iter().filter_map(|finding| finding.clock).min() {
+            // The same seeds give the same clocks: only now a waveform is worth its time.
+            let (from, to) = (clock.saturating_sub(WAVEFORM_CLOCKS), clock + WAVEFORM_CLOCKS);
+            let waveform = self.folder.join(format!("mismatch-{}.fst", self.simulator.name()));
+            let program = self.compile(true)?;
+            self.start(&program, traffic, Some((&waveform, from, to)))?;
+            outcome.waveform = waveform.is_file().then_some(waveform);
+        }
+        Ok(outcome)
+    }
 
-impl Run<'_> {
-    /// Builds the simulation; the program to run.
-    fn build(&self, traced: bool) -> Result<PathBuf> {
+    /// Builds the program, with waveforms where `traced`.
+    fn compile(&self, traced: bool) -> Result<PathBuf> {
         let (mut command, program) = match self.simulator {
             Simulator::Verilator => {
                 let build = if traced { "build-verilator-traced" } else { "build-verilator" };
@@ -152,8 +191,7 @@ impl Run<'_> {
     fn start(
         &self,
         program: &Path,
-        source: &Source,
-        golden: &Golden,
+        traffic: Traffic,
         waveform: Option<(&Path, u64, u64)>,
     ) -> Result<Outcome> {
         let program = program.canonicalize().map_err(|error| Problem::io(program, "run", &error))?;
@@ -168,7 +206,7 @@ impl Run<'_> {
                 command
             }
         };
-        let Traffic { seed, pause_percent, stop_percent } = self.traffic;
+        let Traffic { seed, pause_percent, stop_percent } = traffic;
         command.args([
             format!("+seed={seed}"),
             format!("+pause={pause_percent}"),
@@ -179,12 +217,12 @@ impl Run<'_> {
             command.args([format!("+dump={name}"), format!("+dump_from={from}"), format!("+dump_to={to}")]);
         }
         let start = std::time::Instant::now();
-        let (_, text) = output(command.current_dir(self.folder))?;
+        let (success, text) = output(command.current_dir(self.folder))?;
         let simulation_s = start.elapsed().as_secs_f64();
-        Ok(Outcome { simulation_s, ..self.outcome(&text, source, golden)? })
+        Ok(Outcome { simulation_s, ..self.outcome(&text, success)? })
     }
 
-    fn outcome(&self, text: &str, source: &Source, golden: &Golden) -> Result<Outcome> {
+    fn outcome(&self, text: &str, success: bool) -> Result<Outcome> {
         let mut outcome = Outcome::default();
         let mut verdict = false;
         for line in text.lines() {
@@ -192,15 +230,18 @@ impl Run<'_> {
                 line.split(&format!("{key}=")).nth(1)?.split_whitespace().next()?.parse::<u64>().ok()
             };
             if line.starts_with("PASS ") || line.starts_with("FAIL ") {
-                verdict = true;
+                // A program that passes and then ends badly has not passed.
+                verdict = success || line.starts_with("FAIL ");
                 outcome.values = number("values").unwrap_or(0);
                 outcome.clocks = number("clocks").unwrap_or(0);
                 outcome.mismatches = number("mismatches").unwrap_or(0);
+            } else if line.starts_with("STALLED ") {
+                outcome.stalled_clocks = number("clocks").unwrap_or(0);
             } else if let Some(clocks) = line.strip_prefix("FIRST clock of each stage:") {
                 outcome.first_clocks =
                     clocks.split_whitespace().filter_map(|clock| clock.parse().ok()).collect();
             }
-            outcome.findings.extend(Finding::parse(line, source.pipeline, golden));
+            outcome.findings.extend(Finding::parse(line, self.source.pipeline, self.golden));
         }
         if verdict {
             Ok(outcome)

@@ -33,8 +33,8 @@ pub fn random_sets(pipeline: &Pipeline, seed: u64, sets: usize) -> RawSets {
 }
 
 /// One set in which a pixel's phase steps are one of: every combination of least and greatest code (all sums at their
-/// extremes, all axes and diagonals among them), every combination of two neighbouring codes (the weakest vectors), and
-/// codes around saturation.
+/// extremes, all axes and diagonals among them), every combination of two neighbouring codes (the weakest vectors),
+/// codes around saturation, and codes that the stream's bytes can carry and the converter cannot make.
 pub fn corner_sets(pipeline: &Pipeline) -> RawSets {
     let full_scale = full_scale(pipeline);
     let steps = pipeline.modulation.scheme.steps();
@@ -46,6 +46,7 @@ pub fn corner_sets(pipeline: &Pipeline) -> RawSets {
         (saturation - 1, saturation),
         (0, 1),
         (full_scale / 4, full_scale - full_scale / 4),
+        (full_scale, (1 << pipeline.sensor.adc_bits.next_multiple_of(8)) - 1),
     ];
     sets_of(pipeline, 1, |_, frame, pixel| {
         let (low, high) = pairs[(pixel >> steps) % pairs.len()];
@@ -78,7 +79,15 @@ struct Fault {
     apply: fn(&mut Broken),
 }
 
-/// Every way in which a stream can lose or gain pixels, lines or frames. Each set is followed by a good one.
+impl Broken {
+    /// The beat at `pixel` of the second frame, and all that the set has before and after it: only a wrong marker tells that
+    /// such a set is broken.
+    fn marker(&mut self, pixel: usize) -> &mut Beat {
+        &mut self.frames[1][pixel]
+    }
+}
+
+/// Every way in which a stream can lose or gain pixels, lines, frames or markers.
 const FAULTS: &[Fault] = &[
     Fault {
         name: "first frame a line short",
@@ -145,6 +154,11 @@ const FAULTS: &[Fault] = &[
             set.frames[0][0].end_of_line = true;
         },
     },
+    Fault { name: "end of line missing", apply: |set| set.marker(set.width - 1).end_of_line = false },
+    Fault { name: "end of line too early", apply: |set| set.marker(set.width - 2).end_of_line = true },
+    Fault { name: "start of frame missing", apply: |set| set.marker(0).start_of_frame = false },
+    Fault { name: "start of frame within one", apply: |set| set.marker(1).start_of_frame = true },
+    Fault { name: "start of set alone within a frame", apply: |set| set.marker(1).start_of_set = true },
     Fault {
         name: "last frame missing",
         apply: |set| {
@@ -188,7 +202,11 @@ const FAULTS: &[Fault] = &[
     },
 ];
 
-/// Lines before any start of set, then every fault, each followed by a good set.
+/// Sensors of more pixels share a good set among the faults that need one, for the simulators' sake.
+const LARGE_PIXELS: usize = 4096;
+
+/// Lines before any start of set, then every fault, each followed by a good set (the last few only, on a large sensor: there
+/// the next broken set's start shows that the core has recovered).
 pub fn faulty_stream(pipeline: &Pipeline, seed: u64) -> Vec<Segment> {
     let mut stray = Broken::new(pipeline, seed);
     stray.frames.remove(0);
@@ -196,14 +214,47 @@ pub fn faulty_stream(pipeline: &Pipeline, seed: u64) -> Vec<Segment> {
     stray.frames[0].truncate(pipeline.sensor.width + 1);
     let mut segments =
         vec![Segment { name: "stream joined in the middle".to_owned(), events: stray.events() }];
-    for (fault, seed) in FAULTS.iter().zip(seed + 1..) {
-        let mut set = Broken::new(pipeline, seed);
+    let large = pipeline.geometry().pixels() > LARGE_PIXELS;
+    for (number, fault) in FAULTS.iter().enumerate() {
+        let mut set = Broken::new(pipeline, seed + number as u64);
         (fault.apply)(&mut set);
         segments.push(Segment { name: fault.name.to_owned(), events: set.events() });
-        let good = random_sets(pipeline, seed + 1000, 1);
-        segments.push(Segment::of_sets(&format!("good set after: {}", fault.name), &good));
+        if !large || number + 5 >= FAULTS.len() || number % 6 == 5 {
+            let good = random_sets(pipeline, seed + 1000 + number as u64, 1);
+            segments.push(Segment::of_sets(&format!("good set after: {}", fault.name), &good));
+        }
     }
     segments
+}
+
+/// Silences: inside a line, between frames, and after the last pixel, of the longest that a frame may have and one
+/// clock more.
+pub fn silences(pipeline: &Pipeline, seed: u64) -> Vec<Segment> {
+    let longest = pipeline.sensor.line_blanking_clocks;
+    let (width, pixels) = (pipeline.sensor.width, pipeline.geometry().pixels());
+    // A pause within a set never ends it, however long it is.
+    let mut within = Broken::new(pipeline, seed).events();
+    for at in [pixels, width, 1] {
+        within.insert(at, StreamEvent::Pause { clocks: longest + 40 });
+    }
+    // After the last pixel, a line that comes in time makes the last frame too long; one that comes later is nobody's.
+    let surplus = |name: &str, clocks, seed| {
+        let mut set = Broken::new(pipeline, seed);
+        let mut line: Vec<Beat> = set.frames[0][..width].to_vec();
+        line[0] = Beat { start_of_frame: false, start_of_set: false, ..line[0] };
+        set.frames.push(line);
+        let mut events = set.events();
+        events.insert(events.len() - width, StreamEvent::Pause { clocks });
+        // Everything before has come out, so that nothing holds the beats and the pause is as long as it says.
+        events.insert(0, StreamEvent::Rest);
+        Segment { name: name.to_owned(), events }
+    };
+    vec![
+        Segment { name: "silences within a set".to_owned(), events: within },
+        surplus("surplus line after the longest pause", longest, seed + 1),
+        surplus("surplus line after a silence", longest + 1, seed + 2),
+        Segment::of_sets("good set after silences", &random_sets(pipeline, seed + 3, 1)),
+    ]
 }
 
 /// A set broken off after a line, and a good one: small enough for a folder of golden vectors.
@@ -213,31 +264,41 @@ pub fn aborted_then_good(pipeline: &Pipeline, good: Segment) -> Scenario {
     Scenario { segments: vec![Segment { name: FAULTS[0].name.to_owned(), events: set.events() }, good] }
 }
 
-/// Resets while a set accumulates, while one drains, and while nothing happens; each followed by a good set.
+/// Resets while a set accumulates, while one drains, while one drains and the next accumulates, and while nothing
+/// happens; each followed by a good set.
 pub fn resets(pipeline: &Pipeline, seed: u64) -> Vec<Segment> {
+    let longest = pipeline.sensor.line_blanking_clocks;
+    let pixels = pipeline.geometry().pixels();
     let good = |seed| Segment::of_sets("good set after a reset", &random_sets(pipeline, seed, 1));
     let mut accumulating = Broken::new(pipeline, seed).events();
     accumulating.truncate(pipeline.sensor.width + 3);
     accumulating.push(StreamEvent::Reset);
     let mut draining = Broken::new(pipeline, seed + 1).events();
-    draining.extend([StreamEvent::Silence, StreamEvent::Reset]);
+    draining.extend([StreamEvent::Pause { clocks: longest + 8 }, StreamEvent::Reset]);
+    let mut both = Broken::new(pipeline, seed + 2).events();
+    both.extend(Broken::new(pipeline, seed + 3).events().into_iter().take(pixels / 2));
+    both.push(StreamEvent::Reset);
     vec![
         Segment { name: "reset while a set accumulates".to_owned(), events: accumulating },
-        good(seed + 2),
-        Segment { name: "reset while a set drains".to_owned(), events: draining },
-        good(seed + 3),
-        Segment { name: "reset at rest".to_owned(), events: vec![StreamEvent::Silence, StreamEvent::Reset] },
         good(seed + 4),
+        Segment { name: "reset while a set drains".to_owned(), events: draining },
+        good(seed + 5),
+        Segment { name: "reset while a set drains and the next accumulates".to_owned(), events: both },
+        good(seed + 6),
+        Segment { name: "reset at rest".to_owned(), events: vec![StreamEvent::Rest, StreamEvent::Reset] },
+        good(seed + 7),
     ]
 }
 
-/// Everything that needs no scene and no recording.
+/// Everything that needs no scene and no recording. The resets come first: after them the counters keep what the broken
+/// streams make of them, and are compared at the rests.
 pub fn standard(pipeline: &Pipeline, seed: u64) -> Scenario {
     let mut segments = vec![
         Segment::of_sets("corners", &corner_sets(pipeline)),
         Segment::of_sets("random frames", &random_sets(pipeline, seed, 2)),
     ];
-    segments.extend(faulty_stream(pipeline, seed + 10_000));
     segments.extend(resets(pipeline, seed + 20_000));
+    segments.extend(faulty_stream(pipeline, seed + 10_000));
+    segments.extend(silences(pipeline, seed + 30_000));
     Scenario { segments }
 }

@@ -69,7 +69,7 @@ pub(super) fn framing(source: &Source, banner: String) -> askama::Result<String>
     let pipeline = source.pipeline;
     let Counters { column_bits, row_bits, address_bits, step_bits } = Counters::new(source);
     let last_repeat = pipeline.modulation.frames_per_step - 1;
-    let last_silence = pipeline.sensor.line_blanking_clocks - 1;
+    let last_silence = pipeline.sensor.line_blanking_clocks;
     Framing {
         banner,
         prefix: pipeline.prefix(),

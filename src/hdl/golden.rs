@@ -36,11 +36,13 @@ pub struct StimulusWord(pub u32);
 const OPERATION: u32 = 8 << 16;
 
 impl From<StreamEvent> for StimulusWord {
-    /// `{operation, end of line, start of set, start of frame, code[15:0]}`; operations: 1 silence, 2 reset.
+    /// `{operation, end of line, start of set, start of frame, code[15:0]}`; operations: 9nnnn a pause of n clocks, a0000 reset,
+    /// b0000 rest.
     fn from(event: StreamEvent) -> Self {
         Self(match event {
-            StreamEvent::Silence => OPERATION | 1,
-            StreamEvent::Reset => OPERATION | 2,
+            StreamEvent::Pause { clocks } => OPERATION | 1 << 16 | clocks.min(0xffff),
+            StreamEvent::Reset => OPERATION | 2 << 16,
+            StreamEvent::Rest => OPERATION | 3 << 16,
             StreamEvent::Beat(Beat { code, start_of_frame, start_of_set, end_of_line }) => {
                 u32::from(end_of_line) << 18
                     | u32::from(start_of_set) << 17
@@ -51,10 +53,21 @@ impl From<StreamEvent> for StimulusWord {
     }
 }
 
+/// What a bench compares at a rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rest {
+    /// Records that have come out by then.
+    pub due: usize,
+    /// Complete sets since the last reset.
+    pub done: u32,
+    /// Discarded sets since the last reset.
+    pub discarded: u32,
+}
+
 /// A scenario with the model's answer.
 #[derive(Debug, Clone, Default)]
 pub struct Golden {
-    /// The stimulus, with a last silence that lets the last set out.
+    /// The stimulus, with a last rest that lets the last set out.
     pub stimulus: Vec<StimulusWord>,
     /// Every pixel that comes out, in order.
     pub records: Vec<PixelRecord>,
@@ -62,6 +75,8 @@ pub struct Golden {
     pub sets: Vec<(String, usize)>,
     /// Number of records due before each reset, and at the end.
     pub epochs: Vec<usize>,
+    /// What is compared at each rest.
+    pub rests: Vec<Rest>,
     /// Complete and discarded sets since the last reset.
     pub counters: (u32, u32),
     /// Sets discarded over all epochs.
@@ -85,7 +100,7 @@ impl Golden {
                 }
             }
         }
-        golden.advance(&mut model, StreamEvent::Silence, &open);
+        golden.advance(&mut model, StreamEvent::Rest, &open);
         golden.epochs.push(golden.records.len());
         golden.counters = model.counters();
         golden.discarded += golden.counters.1;
@@ -101,8 +116,13 @@ impl Golden {
             self.records.extend(records);
             self.sets.push(open.clone());
         }
-        if event == StreamEvent::Reset {
-            self.epochs.push(self.records.len());
+        match event {
+            StreamEvent::Reset => self.epochs.push(self.records.len()),
+            StreamEvent::Rest => {
+                let (done, discarded) = model.counters();
+                self.rests.push(Rest { due: self.records.len(), done, discarded });
+            }
+            StreamEvent::Beat(_) | StreamEvent::Pause { .. } => {}
         }
     }
 }

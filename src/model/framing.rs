@@ -45,6 +45,7 @@ pub struct Framing {
     height: usize,
     frames_per_step: usize,
     steps: usize,
+    longest_pause_clocks: u32,
     state: State,
     column: usize,
     row: usize,
@@ -64,6 +65,7 @@ impl Framing {
             height: pipeline.sensor.height,
             frames_per_step: pipeline.modulation.frames_per_step,
             steps: pipeline.modulation.scheme.steps(),
+            longest_pause_clocks: pipeline.sensor.line_blanking_clocks,
             state: State::Lost,
             column: 0,
             row: 0,
@@ -81,11 +83,15 @@ impl Framing {
                 *self = Self { state: State::Lost, sets_done: 0, sets_discarded: 0, ..self.at_start() };
                 FramingEvent::default()
             }
-            StreamEvent::Silence => {
-                FramingEvent { commit: self.state == State::Closing && self.commit(), slot: None }
-            }
+            StreamEvent::Pause { clocks } => self.silence(clocks > self.longest_pause_clocks),
+            StreamEvent::Rest => self.silence(true),
             StreamEvent::Beat(beat) => self.beat(beat),
         }
+    }
+
+    /// A silence that is `long` ends a frame.
+    fn silence(&mut self, long: bool) -> FramingEvent {
+        FramingEvent { commit: long && self.state == State::Closing && self.commit(), slot: None }
     }
 
     fn at_start(&self) -> Self {

@@ -20,8 +20,13 @@ pub struct Beat {
 pub enum StreamEvent {
     /// A beat is accepted.
     Beat(Beat),
-    /// Nothing arrives for longer than a frame's longest pause.
-    Silence,
+    /// Nothing arrives for exactly so many clocks.
+    Pause {
+        /// How many, 1 to 65535.
+        clocks: u32,
+    },
+    /// Nothing arrives until everything that is due has come out.
+    Rest,
     /// The core is reset.
     Reset,
 }

@@ -128,7 +128,7 @@ pub(super) fn write_npy(path: &Path, shape: &[u64], numbers: &Numbers) -> std::i
 }
 
 /// Refuses a target that is there and is not, in whole, what an earlier run has written.
-fn may_be_replaced(folder: &Path) -> Result<()> {
+pub fn may_be_replaced(folder: &Path) -> Result<()> {
     let Ok(metadata) = folder.symlink_metadata() else { return Ok(()) };
     let refuse = |found: &str| {
         Problem::in_file(folder, found)
@@ -235,13 +235,14 @@ mod tests {
         fs::write(&file, "mine").unwrap();
         assert!(refusal(&file).contains("is not a folder"));
         assert!(refusal(&file.join("out")).contains("cannot write"));
-        assert!(refusal(&home.path().join("absent/out")).contains("cannot write"));
         assert!(refusal(&home.path().join("..")).contains("was not written by vuris"));
         assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
 
         let folder = home.path().join("photographs");
         fs::create_dir(&folder).unwrap();
+        fs::write(folder.join("1.raw"), "mine").unwrap();
         assert!(refusal(&folder).contains("was not written by vuris"));
+        fs::remove_file(folder.join("1.raw")).unwrap();
         fs::write(folder.join(MANIFEST), "format = \"other/1\"").unwrap();
         assert!(refusal(&folder).contains(MANIFEST));
 

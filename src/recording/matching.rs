@@ -41,7 +41,12 @@ pub fn pipeline_for(
         let Specification { sensor, modulation, .. } = specification;
         sensor.width = recording.geometry().width;
         sensor.height = recording.geometry().height;
-        sensor.adc_bits = recording.adc_bits();
+        sensor.adc_bits = match recording.camera {
+            Some(_) => recording.adc_bits(),
+            // Without a camera.toml only the codes speak: they may need more bits than specified, but a dim recording
+            // does not make the converter narrower, nor its brightest pixel saturated.
+            None => recording.adc_bits().max(base.sensor.adc_bits),
+        };
         // A threshold beyond the new full scale would never be met.
         sensor.saturation_dn = sensor.saturation_dn.min(Word::unsigned(sensor.adc_bits).max());
         modulation.scheme = scheme;
@@ -100,7 +105,7 @@ fn scheme_of(
         (None, None) => {
             let known = SCHEMES.iter().map(|scheme| {
                 let steps = shown_rad(&scheme_steps_rad(scheme));
-                format!("\n    {}: {} frames a step count, {steps}", scheme.name, scheme.steps())
+                format!("\n    {}: {steps}", scheme.name)
             });
             Err(Problem::in_file(
                 &file,
@@ -142,6 +147,7 @@ fn shown_rad(steps_rad: &[f64]) -> String {
 mod tests {
     use super::*;
     use crate::frames::{Geometry, RawSets};
+    use crate::recording::Camera;
     use crate::recording::{Kind, SetRow};
     use std::f64::consts::{FRAC_PI_2, TAU};
     use std::path::PathBuf;
@@ -216,9 +222,23 @@ mod tests {
         let wide = recording(steps("four_frame", 1, 0.0), 16_000);
         let (pipeline, _) = pipeline_for(&wide, &base, SchemeChoice::Specified).unwrap();
         assert_eq!(pipeline.sensor.saturation_dn, 4000);
-        let narrow = recording(steps("four_frame", 1, 0.0), 200);
+        let mut narrow = recording(steps("four_frame", 1, 0.0), 200);
+        // Without a camera a dim recording does not make the converter narrower; a camera says what it has.
+        let (pipeline, _) = pipeline_for(&narrow, &base, SchemeChoice::Specified).unwrap();
+        assert_eq!((pipeline.sensor.adc_bits, pipeline.sensor.saturation_dn), (12, 4000));
+        narrow.camera = Some(Camera {
+            geometry: narrow.geometry(),
+            adc_bits: 8,
+            pedestal_dn: 0.0,
+            gain_e_per_dn: 1.0,
+            read_noise_e: 1.0,
+            focal_length_px: 33.0,
+            correlation_amplitude: vec![1.0],
+            correlation_phase_rad: vec![0.0],
+            included_physics: vec![],
+        });
         let (pipeline, sentences) = pipeline_for(&narrow, &base, SchemeChoice::Specified).unwrap();
-        assert_eq!(pipeline.sensor.saturation_dn, 255);
+        assert_eq!((pipeline.sensor.adc_bits, pipeline.sensor.saturation_dn), (8, 255));
         assert!(sentences.iter().any(|sentence| sentence.starts_with("saturation 255 DN")), "{sentences:?}");
     }
 

@@ -174,7 +174,7 @@ fn vector(pipeline: &Pipeline) -> Section {
         "latency",
         format!("{} clocks", derived.latency_clocks),
         format!(
-            "from the read of a pixel's sums to its result: memory 1, scaling 1, magnitude 1, swap 1, shifts {}, rounding {}, iterations {}, polar 2, distance 2",
+            "from a pixel's sums at the memory's output to its result: scaling 1, magnitude 1, swap 1, shifts {}, rounding {}, iterations {}, polar 2, distance 2, output 1",
             normaliser.shifts.len(),
             u32::from(normaliser.drop_bits > 0),
             cordic.iterations

@@ -75,15 +75,16 @@ pub struct Derived {
     pub distance: Word,
     /// Distance units a phase code.
     pub distance_factor: ScaledConstant,
-    /// Clocks from the read of a pixel's sums to its result at the output register, without back-pressure.
+    /// Clocks from a pixel's sums at the memory's output to its result at the core's output, without back-pressure.
     pub latency_clocks: u32,
 }
 
 /// Relative share of one phase code that the irrational's approximation may cost: 1/16.
 const IRRATIONAL_SHARE: f64 = 1.0 / 16.0;
 
-/// Significant bits of a factor beyond those of its result, so that the factor's own error stays under 1/16 code.
-const FACTOR_GUARD_BITS: u32 = 3;
+/// Significant bits of a factor beyond those of its result. A multiplier of n bits is off by at most half of its last bit, a
+/// relative error of 2^-n, so that a result of n - 4 bits is off by less than 1/16 code.
+const FACTOR_GUARD_BITS: u32 = 4;
 
 impl Derived {
     /// Derives everything; `source` is the name that a refusal gives.
@@ -138,7 +139,11 @@ impl Derived {
         let divisor = scheme.gain * in_phase_factor * frames_per_step;
         let amplitude_scale = 2f64.powi(output.amplitude_fraction_bits as i32);
         let largest_vector = (largest(x) as f64).hypot(largest(y) as f64);
-        let amplitude_limit = (largest_vector / divisor as f64 * amplitude_scale * 1.001).ceil() as i64 + 1;
+        // x leaves the CORDIC too large by at most half an ulp and half an ulp of y's effect an iteration, each an ulp of
+        // at least 1.0, and two of the normaliser; the factor's own error and the last rounding add less than a code.
+        let relative = factor_error + f64::from(cordic.iterations + 2) / f64::from(fraction_bits).exp2();
+        let amplitude_limit =
+            (largest_vector / divisor as f64 * amplitude_scale * (1.0 + relative)).ceil() as i64 + 1;
         let amplitude = Word::holding(0, amplitude_limit);
         let exponent = i64::from(output.amplitude_fraction_bits) + i64::from(magnitude_bits)
             - 1
@@ -191,9 +196,9 @@ impl Derived {
         )
         .ok_or_else(|| unrepresentable("output.distance_unit_m", output.distance_unit_m.to_string()))?;
 
-        // memory 1, scaling 1, magnitudes 1, swap 1, shift stages, rounding 1, iterations, unfold 1, amplitude 1,
-        // distance 2, output 1: each a register of the template of the same name.
-        let latency_clocks = 4 + stages + u32::from(normaliser.drop_bits > 0) + cordic.iterations + 2 + 2;
+        // scaling 1, magnitudes 1, swap 1, shift stages, rounding 1, iterations, polar 2, distance 2, output 1: each a
+        // register of the template of the same name.
+        let latency_clocks = 3 + stages + u32::from(normaliser.drop_bits > 0) + cordic.iterations + 2 + 2 + 1;
 
         Ok(Self {
             frames_per_set: scheme.steps() * modulation.frames_per_step,

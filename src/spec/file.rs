@@ -11,13 +11,26 @@ const FORMAT: &str = "vuris-pipeline/1";
 
 /// Reads the file at `path`.
 pub(super) fn read(path: &str) -> Result<Pipeline> {
-    let text = std::fs::read_to_string(Path::new(path)).map_err(|error| {
+    let text = read_text(Path::new(path)).map_err(|error| {
         let presets = PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
         Problem::io(Path::new(path), "read the specification", &error)
             .expected(format_args!("a file, or one of the presets {presets}"))
             .remedy("`vuris explain --spec vuris --toml > my.toml` writes a file to start from")
     })?;
     Pipeline::parse(path, &text)
+}
+
+/// The text of a regular file of a plausible size: a device would be read for ever.
+fn read_text(path: &Path) -> std::io::Result<String> {
+    let metadata = std::fs::metadata(path)?;
+    let refuse = |what| Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, what));
+    if metadata.is_dir() {
+        return refuse("it is a directory");
+    }
+    if !metadata.is_file() || metadata.len() > 1 << 20 {
+        return refuse("it is not a file of at most a megabyte");
+    }
+    std::fs::read_to_string(path)
 }
 
 /// Reads the text of a file; the limits of each value are checked here, their interplay by [`check`].
@@ -40,7 +53,7 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         height: sensor.integer("height", 1..=4096)? as usize,
         adc_bits,
         saturation_dn: sensor.integer_or("saturation_dn", 1..=full_scale_dn, full_scale_dn)?,
-        line_blanking_clocks: sensor.integer_or("line_blanking_clocks", 16..=65_535, 64)? as u32,
+        line_blanking_clocks: sensor.integer_or("line_blanking_clocks", 16..=60_000, 64)? as u32,
     };
 
     let modulation = top.section("modulation")?;

@@ -32,7 +32,7 @@ pub struct Sensor {
     pub adc_bits: u32,
     /// Least code that counts as saturated, DN; 1 to full scale.
     pub saturation_dn: i64,
-    /// Longest pause inside a frame, clocks, 16 to 65535; a longer silence ends the frame.
+    /// Longest pause inside a frame, clocks, 16 to 60000; a longer silence ends the frame.
     pub line_blanking_clocks: u32,
 }
 
@@ -159,9 +159,15 @@ impl Pipeline {
         Geometry { width: self.sensor.width, height: self.sensor.height }
     }
 
-    /// Name of the top Verilog module, and prefix of the others.
+    /// What the names of all Verilog modules begin with.
     pub fn prefix(&self) -> String {
         self.name.replace('-', "_")
+    }
+
+    /// Name of the top Verilog module. Like every module's it ends in a noun of ours, so that no specification's name can
+    /// make it a keyword.
+    pub fn top(&self) -> String {
+        format!("{}_pipeline", self.prefix())
     }
 }
 

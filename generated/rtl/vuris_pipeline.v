@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The phase pipeline of a 160 x 120 time-of-flight camera: raw frames in, phase, amplitude, offset and distance out,
 // one pixel a clock. Scheme wdft, 5 raw frames a set; the set's results come out in pixel order once its last
-// frame has arrived whole, 34 clocks after a pixel's sums are read. It does not calibrate, filter or unwrap.
+// frame has arrived whole, 34 clocks after its sums leave the memory. It does not calibrate, filter or unwrap.
 //
 //   m_axis_tdata bits | field
 //    17:0   | phase, turns / 2^18
@@ -16,7 +16,7 @@
 //
 // Reset is synchronous, so that no release of it can be half seen; hold it low for one clock or more.
 `default_nettype none
-module vuris (
+module vuris_pipeline (
   input  wire        clk_i,             // clock
   input  wire        rst_ni,            // synchronous reset, active low
   input  wire        s_axis_tvalid,     // a raw sample is offered
@@ -30,8 +30,17 @@ module vuris (
   output wire        m_axis_tlast,      // last pixel of a line
   output wire        m_axis_tuser,      // first pixel of a result frame
   output wire [31:0] sets_done_o,       // complete sets since reset
-  output wire [31:0] sets_discarded_o   // sets discarded since reset: a frame missing, too short or too long
+  output wire [31:0] sets_discarded_o,  // sets discarded since reset: a frame missing, too short or too long
+  output wire [31:0] stall_clocks_o     // clocks since reset in which an offered sample was not taken
 );
+
+  // A sensor that cannot wait loses samples where this counts.
+  reg [31:0] stall_clocks_q;
+  assign stall_clocks_o = stall_clocks_q;
+  always @(posedge clk_i) begin
+    if (!rst_ni) stall_clocks_q <= 32'd0;
+    else if (s_axis_tvalid && !s_axis_tready) stall_clocks_q <= stall_clocks_q + 32'd1;
+  end
 
   // The raw stream, registered.
   wire                  above_range = |s_axis_tdata[15:12];
