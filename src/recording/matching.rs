@@ -9,9 +9,9 @@ use crate::problem::{Problem, Result};
 use crate::spec::{Pipeline, SCHEMES, Scheme, Specification, Word};
 use crate::units::wrap_rad;
 
-/// Steps that differ by less, modulo 2π, are the same, rad: recordings are written with 12 decimals, and no phase
-/// shifter is set more finely.
-pub const STEP_TOLERANCE_RAD: f64 = 1e-6;
+/// Steps that differ by less, modulo 2π, are the same, rad. Steps written with five digits are (1.5708), and what is then
+/// left in the phase, under 0.1 mrad, is below any camera's noise; a step that is really wrong is off by more.
+pub const STEP_TOLERANCE_RAD: f64 = 1e-4;
 
 /// Steps that a refusal lists before it says how many there are.
 const MOST_STEPS_SHOWN: usize = 40;
@@ -243,6 +243,14 @@ mod tests {
     }
 
     #[test]
+    fn steps_written_with_five_digits_are_recognised() {
+        let base = Pipeline::named("vuris").unwrap();
+        let steps_rad = (0..5).map(|n| f64::from(n) * 2.0944).collect();
+        let (pipeline, _) = pipeline_for(&recording(steps_rad, 4000), &base, SchemeChoice::Auto).unwrap();
+        assert_eq!(pipeline.modulation.scheme.name, "wdft");
+    }
+
+    #[test]
     fn steps_of_another_scheme_or_of_none_are_refused() {
         let base = Pipeline::named("vuris").unwrap();
         let refusal = |steps_rad: Vec<f64>, choice| {
@@ -254,7 +262,7 @@ mod tests {
         }
         // Two cycles of four frames: the steps are right, but a step's frames are not consecutive.
         let cycles = (0..8).map(|n| f64::from(n) * FRAC_PI_2).collect();
-        for steps_rad in [cycles, steps("wdft", 1, 2e-6), vec![0.0], vec![0.0, 1.0, 2.0]] {
+        for steps_rad in [cycles, steps("wdft", 1, 2e-4), vec![0.0], vec![0.0, 1.0, 2.0]] {
             let none = refusal(steps_rad, SchemeChoice::Auto);
             for part in ["recording.toml", "no scheme", "four_frame", "wdft", "0.000", "consecutive"] {
                 assert!(none.contains(part), "{none}");
