@@ -10,7 +10,6 @@
 //   +stop=P        percent of clocks without output (25)
 //   +dump=FILE     waveform, from clock +dump_from=C to +dump_to=C
 // The last line is `PASS values=… clocks=…` or `FAIL mismatches=…`.
-`timescale 1ns / 1ps
 `default_nettype none
 module testbench;
 
