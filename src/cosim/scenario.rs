@@ -32,7 +32,7 @@ pub fn random_sets(pipeline: &Pipeline, seed: u64, sets: usize) -> RawSets {
     })
 }
 
-/// One set in which a pixel's phase steps are one of: every combination of least and greatest code (all sums at their
+/// Sets in which a pixel's phase steps are one of: every combination of least and greatest code (all sums at their
 /// extremes, all axes and diagonals among them), every combination of two neighbouring codes (the weakest vectors),
 /// codes around saturation, and codes that the stream's bytes can carry and the converter cannot make.
 pub fn corner_sets(pipeline: &Pipeline) -> RawSets {
@@ -48,9 +48,14 @@ pub fn corner_sets(pipeline: &Pipeline) -> RawSets {
         (full_scale / 4, full_scale - full_scale / 4),
         (full_scale, (1 << pipeline.sensor.adc_bits.next_multiple_of(8)) - 1),
     ];
-    sets_of(pipeline, 1, |_, frame, pixel| {
-        let (low, high) = pairs[(pixel >> steps) % pairs.len()];
-        if pixel >> (frame / frames_per_step) & 1 == 1 { high } else { low }
+    // As many sets as it takes to have every pattern, up to eight on the smallest sensors; a stride without a common divisor
+    // spreads the patterns over them.
+    let patterns = pairs.len() << steps;
+    let pixels = pipeline.geometry().pixels();
+    sets_of(pipeline, patterns.div_ceil(pixels).min(8), |set, frame, pixel| {
+        let pattern = (set * pixels + pixel) * 37 % patterns;
+        let (low, high) = pairs[pattern >> steps];
+        if pattern >> (frame / frames_per_step) & 1 == 1 { high } else { low }
     })
 }
 

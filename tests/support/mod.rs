@@ -1,0 +1,113 @@
+//! What the verification tests share: small sensors, specifications of every kind, two builds at a time.
+
+// Each test file is a crate of its own and uses a part of this module.
+#![allow(dead_code)]
+
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use std::sync::Mutex;
+use vuris::cosim::{random_sets, standard};
+use vuris::frames::RawSets;
+use vuris::hdl::{Scenario, Segment};
+use vuris::spec::{Cordic, Modulation, Output, Pipeline, SCHEMES, Sensor, Specification};
+use vuris::units::unambiguous_range_m;
+
+/// `preset` with a sensor of 12 x 9 pixels, and then as `change` says.
+pub fn small(preset: &str, change: impl FnOnce(&mut Specification)) -> Pipeline {
+    let small = |specification: &mut Specification| {
+        specification.sensor.width = 12;
+        specification.sensor.height = 9;
+        change(specification);
+    };
+    Pipeline::named(preset).unwrap().adapted("small", small).unwrap()
+}
+
+/// Does `work` for every item, two at a time; the results in the items' order.
+pub fn two_at_a_time<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let queue = Mutex::new(items.iter().enumerate());
+    let results = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                loop {
+                    let next = queue.lock().unwrap().next();
+                    let Some((number, item)) = next else { break };
+                    let result = work(item);
+                    results.lock().unwrap().push((number, result));
+                }
+            });
+        }
+    });
+    let mut results = results.into_inner().unwrap();
+    results.sort_by_key(|&(number, _)| number);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
+/// What `vuris verify` drives the core with, and a set with codes that the stream's bytes can carry and the converter
+/// cannot make: whatever their low bits are, they count as full scale.
+pub fn everything(pipeline: &Pipeline, seed: u64) -> Scenario {
+    let mut scenario = standard(pipeline, seed);
+    let raw = random_sets(pipeline, seed + 100, 1);
+    let largest = (1_u32 << pipeline.sensor.adc_bits.next_multiple_of(8)) - 1;
+    let beyond =
+        raw.codes().iter().enumerate().map(|(n, &code)| if n % 5 == 0 { largest - code } else { code });
+    let raw = RawSets::new(raw.geometry(), raw.frames_per_set(), beyond.collect()).unwrap();
+    scenario.segments.push(Segment::of_sets("codes beyond full scale", &raw));
+    scenario
+}
+
+/// Specifications of every kind that the program accepts: all its fields, with small sensors and few frames.
+pub fn specifications() -> impl Strategy<Value = Specification> {
+    let sensor = (2..=8_usize, 1..=6_usize, 8..=16_u32, 0.0..1.5_f64, 16..=100_u32).prop_map(
+        |(width, height, adc_bits, saturation, line_blanking_clocks)| {
+            let full_scale_dn = (1_i64 << adc_bits) - 1;
+            Sensor {
+                width,
+                height: height.max(8_usize.div_ceil(width)),
+                adc_bits,
+                saturation_dn: ((full_scale_dn as f64 * saturation) as i64).clamp(1, full_scale_dn),
+                line_blanking_clocks,
+            }
+        },
+    );
+    let modulation =
+        (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize).prop_map(|(scheme, decade, frames_per_step)| {
+            Modulation { scheme: &SCHEMES[scheme], frequency_hz: 10_f64.powf(decade), frames_per_step }
+        });
+    let cordic = (4..=30_u32, 0..=8_u32, 1..=8_u32);
+    // Bits of the distance, and the least amplitude as a part of the full scale (or none).
+    let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64);
+    (sensor, modulation, cordic, output)
+        .prop_map(|(sensor, modulation, (iterations, vector_guard_bits, angle_guard_bits), output)| {
+            let (phase_bits, amplitude_fraction_bits, offset_fraction_bits, distance_bits, weakest) = output;
+            let range_m = unambiguous_range_m(modulation.frequency_hz);
+            let full_scale_dn = f64::from(sensor.adc_bits).exp2();
+            Specification {
+                name: "any".to_owned(),
+                sensor,
+                cordic: Cordic {
+                    iterations: iterations.min(phase_bits + vector_guard_bits),
+                    vector_guard_bits,
+                    angle_guard_bits,
+                },
+                output: Output {
+                    phase_bits,
+                    amplitude_fraction_bits,
+                    offset_fraction_bits,
+                    distance_unit_m: range_m / distance_bits.exp2(),
+                    minimum_amplitude_dn: weakest.max(0.0) * full_scale_dn,
+                },
+                modulation,
+            }
+        })
+        .prop_filter("it is accepted", |specification| Pipeline::new("any", specification.clone()).is_ok())
+}
+
+/// The same `count` of them on every machine, for tools that need no other each time.
+pub fn accepted(count: usize) -> Vec<Pipeline> {
+    let mut runner = TestRunner::deterministic();
+    (0..count)
+        .map(|_| Pipeline::new("any", specifications().new_tree(&mut runner).unwrap().current()).unwrap())
+        .collect()
+}
