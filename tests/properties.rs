@@ -110,8 +110,20 @@ fn within_words(pipeline: &Pipeline, record: &PixelRecord) -> TestCaseResult {
     let major = if normalised.zero { 0..=0 } else { one..=2 * one };
     prop_assert!(major.contains(&normalised.major) && (0..=normalised.major).contains(&normalised.minor));
     prop_assert!((normalised.shift as usize) < 1 << derived.normaliser.shifts.len());
+    // Shifted and rounded to nearest, both by the same rule.
+    let (x, y) = (record.vector.x.abs(), record.vector.y.abs());
+    let (pad_bits, drop_bits) = (derived.normaliser.pad_bits, derived.normaliser.drop_bits);
+    for (coordinate, exact) in [(normalised.major, x.max(y)), (normalised.minor, x.min(y))] {
+        let exact = exact << normalised.shift << pad_bits;
+        prop_assert!(
+            2 * ((coordinate << drop_bits) - exact).abs() <= (1 << drop_bits) & !1,
+            "{:?}",
+            normalised
+        );
+    }
     // The iterations once more, as a textbook has them, to see what is between them: x / 2^i, halves up.
     let (mut x, mut y, mut angle) = (normalised.major, normalised.minor, 0);
+    held.extend([("x", derived.cordic_x, x), ("y", derived.cordic_y, y)]);
     for (i, step) in (1..).zip(&derived.angle_table) {
         let part = |value: i64| (value + (1 << (i - 1))).div_euclid(1 << i);
         let sign = if y < 0 { -1 } else { 1 };
@@ -217,6 +229,7 @@ fn with_five_frames_beginning_a_step_later_is_a_third_of_a_turn() {
         if before.vector.x == 0 && before.vector.y == 0 {
             return Ok(());
         }
+        prop_assert_eq!(after.sums.offset, before.sums.offset);
         let third = f64::from(pipeline.output.phase_bits).exp2() / 3.0;
         let turn = 3.0 * third;
         let off = turned(pipeline, &before, &after) as f64 + third;
@@ -294,7 +307,8 @@ fn more_light_is_more_amplitude_and_the_same_phase() {
             let allowed = if times.is_power_of_two() { 0.0 } else { 2.0 * budget.phase_codes() };
             prop_assert!(off <= allowed, "{} times the light turns the phase by {} codes", times, off);
             let (weak, strong) = (before.amplitude as f64, after.amplitude as f64);
-            // Both are within their bound of the true amplitudes, whose ratio is `times`.
+            // Both are within their bound of the true amplitudes, whose ratio is `times`; the tenth is for the bounds' taking
+            // the amplitude as it came out instead of the true one.
             let allowed =
                 f64::from(times) * budget.amplitude_codes(weak + 1.0) + budget.amplitude_codes(strong + 1.0);
             let off = (strong - f64::from(times) * weak).abs();
@@ -381,10 +395,17 @@ fn constant_light_has_no_phase() {
 fn a_pixel_is_valid_where_it_has_a_vector_that_is_strong_enough() {
     always(None, |pipeline, codes| {
         let record = record(pipeline, &codes);
-        let least =
-            pipeline.output.minimum_amplitude_dn * f64::from(pipeline.output.amplitude_fraction_bits).exp2();
-        let strong = record.amplitude as f64 >= least.round();
-        prop_assert_eq!(record.valid, strong && (record.vector.x, record.vector.y) != (0, 0));
+        let has_vector = (record.vector.x, record.vector.y) != (0, 0);
+        let scale = f64::from(pipeline.output.amplitude_fraction_bits).exp2();
+        let least = (pipeline.output.minimum_amplitude_dn * scale).round();
+        prop_assert_eq!(record.valid, has_vector && record.amplitude as f64 >= least);
+        // As strong as this pixel, and a code stronger.
+        for (more, valid) in [(0, has_vector), (1, false)] {
+            let least = (record.amplitude + more) as f64 / scale;
+            let other =
+                pipeline.adapted("any", |specification| specification.output.minimum_amplitude_dn = least);
+            prop_assert_eq!(other.is_ok_and(|other| self::record(&other, &codes).valid), valid);
+        }
         Ok(())
     });
 }
