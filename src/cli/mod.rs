@@ -4,6 +4,7 @@ mod campaign;
 mod demo;
 mod explain;
 mod generate;
+mod mutate;
 mod print;
 mod process;
 mod progress;
@@ -35,6 +36,7 @@ enum Command {
     Explain(explain::Explain),
     Scene(scene::Scene),
     Demo(demo::Demo),
+    Mutate(mutate::Mutate),
 }
 
 impl Arguments {
@@ -48,6 +50,7 @@ impl Arguments {
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
             Command::Demo(command) => command.run(),
+            Command::Mutate(command) => command.run(),
         }
     }
 }

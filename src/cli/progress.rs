@@ -16,3 +16,18 @@ pub(super) fn during<T>(what: impl Into<String>, work: impl FnOnce() -> T) -> T 
     bar.finish_and_clear();
     result
 }
+
+/// A bar with the time left, while `work` runs; it is told how many of how many are done.
+pub(super) fn counted<T>(what: &'static str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar.set_message(what);
+    let result = work(&|done, all| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    });
+    bar.finish_and_clear();
+    result
+}
