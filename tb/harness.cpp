@@ -195,6 +195,7 @@ int main(int argc, char** argv) {
         if (stage == kStages - 1) {
           check("output.first", 1, r % kPixels == 0, top->m_axis_tuser);
           check("output.last", 1, r % kPixels % kWidth == kWidth - 1, top->m_axis_tlast);
+          if (top->padding_o) check("output.padding", 1, 0, 1);
         }
       }
       record[stage]++;
@@ -234,7 +235,7 @@ int main(int argc, char** argv) {
         exact = true;
       } else if (next >> 16 == 0xa) {  // reset: what is still under way is lost
         word++;
-        wait_for = 4;
+        wait_for = 1 + random.next() % 4;
         resetting = true;
         reset_n = false;
         for (int stage = 0; stage < kStages; stage++) {

@@ -21,6 +21,7 @@ module bench_taps (
   output wire [31:0] sets_discarded_o, // counter
   output wire [31:0] stall_clocks_o,   // counter
   output wire [[ "[" ]][[ bench.stage_count - 1 ]]:0] strobe_o,         // a pixel passes the stage
+  output wire        padding_o,        // a bit between the result's fields is not 0
   output wire [[ "[" ]][[ bench.channel_bits - 1 ]]:0] values_o          // what it carries
 );
 
@@ -41,6 +42,8 @@ module bench_taps (
     .sets_discarded_o(sets_discarded_o),
     .stall_clocks_o  (stall_clocks_o)
   );
+
+  assign padding_o = |(m_axis_tdata & [[ bench.padding ]]);
 [% for stage in bench.stages %]
   // [[ stage.name ]]
   assign strobe_o[ [[- stage.number -]] ] = [[ stage.strobe ]];

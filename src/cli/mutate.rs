@@ -17,7 +17,7 @@ const LEAST_PERCENT: f64 = 98.0;
 /// Put faults into the generated core, bit by bit, and count how many of them the test bench sees
 #[derive(Debug, Args)]
 pub(super) struct Mutate {
-    /// Specification: a preset or a TOML file; its sensor is replaced by one of 5 x 3 pixels
+    /// Specification: a preset or a TOML file; its sensor is replaced by one of 6 x 5 pixels
     #[arg(long, value_name = "FILE|PRESET")]
     spec: String,
     /// Mutants of each module

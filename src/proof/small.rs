@@ -7,13 +7,13 @@ use crate::problem::Result;
 use crate::spec::Pipeline;
 
 /// Columns of the small sensor: not a power of two, so that a column's counter wraps before its word does.
-const COLUMNS: usize = 5;
+const COLUMNS: usize = 6;
 /// Lines of the small sensor.
-const LINES: usize = 3;
+const LINES: usize = 5;
 /// The shortest blanking that a specification may have is 16 clocks; it is not a power of two either.
 const BLANKING_CLOCKS: u32 = 20;
 
-/// `pipeline` with all its words and a sensor of 5 x 3 pixels.
+/// `pipeline` with all its words and a sensor of 6 x 5 pixels.
 pub fn small(pipeline: &Pipeline) -> Result<Pipeline> {
     pipeline.adapted("small", |specification| {
         specification.sensor.width = COLUMNS;
@@ -61,4 +61,4 @@ pub fn stimulus(pipeline: &Pipeline, seed: u64) -> Scenario {
 }
 
 /// Enough for every octave to meet every pixel a few times.
-const OCTAVE_SETS: usize = 60;
+const OCTAVE_SETS: usize = 36;

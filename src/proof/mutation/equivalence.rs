@@ -27,7 +27,7 @@ pub(super) fn proved(netlist: &Netlist, mutant: &Mutant) -> Result<bool> {
          design -load part\n{mutation}{bits}rename part gate\ndesign -stash gate\n\
          design -copy-from gold -as gold gold\ndesign -copy-from gate -as gate gate\n\
          equiv_make gold gate equiv\nhierarchy -top equiv\nopt_expr\nopt_merge\nequiv_struct -icells\n\
-         equiv_simple -undef -seq 1\nequiv_induct -undef -seq {DEPTH}\nequiv_status -assert\n",
+         equiv_simple -seq 1\nequiv_induct -seq {DEPTH}\nequiv_status -assert\n",
         top = netlist.top,
         mutation = mutant.command("part", ""),
     );

@@ -3,7 +3,7 @@
 //! Yosys reads the generated Verilog, flattens it and lists every fault of one bit of one cell's port. Some are drawn for
 //! each module, evenly over the places of its source, and all of them are put into one netlist, which a plusarg switches between.
 //! The bench of `vuris verify` runs each, under every mixture of pauses and stops, until it sees a difference. What survives
-//! is either proved equivalent, or counts against the bench.
+//! is run again with counters that start shortly before their wrap, then either proved equivalent, or counts against the bench.
 
 mod bench;
 mod equivalence;
@@ -18,6 +18,8 @@ pub use mutant::Mutant;
 pub use report::{Tally, report};
 
 use super::{small, stimulus};
+use bench::Bench;
+use netlist::Netlist;
 use crate::hdl::{Golden, Source};
 use crate::problem::{Problem, Result};
 use crate::spec::Pipeline;
@@ -66,13 +68,19 @@ pub fn run(pipeline: &Pipeline, campaign: Campaign, progress: &(dyn Fn(usize, us
             .map_err(|error| Problem::io(&std::env::temp_dir(), "write", &error))
     };
     let (netlist_folder, bench_folder) = (temporary()?, temporary()?);
-    let netlist = netlist::Netlist::new(&source, netlist_folder.path())?;
+    let (late_netlist_folder, late_bench_folder) = (temporary()?, temporary()?);
+    let netlist = Netlist::new(&source, netlist_folder.path(), false)?;
+    let late_netlist = Netlist::new(&source, late_netlist_folder.path(), true)?;
     let mutants = netlist.draw(campaign.per_module, campaign.seed)?;
     let golden = Golden::new(&pipeline, &stimulus(&pipeline, campaign.seed));
-    let bench = bench::Bench::build(source, &golden, &netlist, &mutants, bench_folder.path())?;
+    let bench = Bench::build(source, &golden, &netlist, &mutants, bench_folder.path(), false)?;
+    let late = Bench::build(source, &golden, &late_netlist, &mutants, late_bench_folder.path(), true)?;
     let done = AtomicUsize::new(0);
     let verdicts = in_parallel(&mutants, |number, mutant| {
         let mut verdict = bench.run(number + 1)?;
+        if verdict == Verdict::Survived {
+            verdict = late.run(number + 1)?;
+        }
         if verdict == Verdict::Survived && equivalence::proved(&netlist, mutant)? {
             verdict = Verdict::Equivalent;
         }

@@ -14,6 +14,13 @@ const SWITCH: &str = "mutant_switch";
 /// Its width, enough for any campaign.
 const SWITCH_BITS: u32 = 16;
 
+/// How a counter of 32 bits is reset.
+const RESET_COUNTER: &str = "<= 32'd0;";
+/// How it is reset a few counts before its wrap: to 2^32 - 6.
+const LATE_COUNTER: &str = "<= -'d06;";
+/// What a counter that is reset so is short of.
+pub(super) const LATE_COUNTS: u32 = 6;
+
 /// A core as Yosys reads it, flat, in a folder of its own.
 pub(super) struct Netlist<'a> {
     pub folder: &'a Path,
@@ -24,9 +31,16 @@ pub(super) struct Netlist<'a> {
 }
 
 impl<'a> Netlist<'a> {
-    /// Writes and reads the Verilog of `source` in `folder`.
-    pub(super) fn new(source: &Source, folder: &'a Path) -> Result<Self> {
-        let rtl = rtl_artifacts(source);
+    /// Writes and reads the Verilog of `source` in `folder`; where `late`, with counters that a reset sets to
+    /// [`LATE_COUNTER`]: no simulation lasts until the upper bits of a counter move from 0.
+    pub(super) fn new(source: &Source, folder: &'a Path, late: bool) -> Result<Self> {
+        let mut rtl = rtl_artifacts(source);
+        if late {
+            // As many characters, so that every place keeps its name.
+            for file in &mut rtl {
+                file.text = file.text.replace(RESET_COUNTER, LATE_COUNTER);
+            }
+        }
         artifact::write(folder, &rtl)?;
         let files: Vec<&str> =
             rtl.iter().map(|file| file.path.as_str()).filter(|path| path.ends_with(".v")).collect();
