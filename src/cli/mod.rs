@@ -1,6 +1,7 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
 mod campaign;
+mod coverage;
 mod demo;
 mod explain;
 mod generate;
@@ -37,6 +38,7 @@ enum Command {
     Scene(scene::Scene),
     Demo(demo::Demo),
     Mutate(mutate::Mutate),
+    Coverage(coverage::Coverage),
 }
 
 impl Arguments {
@@ -51,6 +53,7 @@ impl Arguments {
             Command::Scene(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Mutate(command) => command.run(),
+            Command::Coverage(command) => command.run(),
         }
     }
 }

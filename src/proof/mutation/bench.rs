@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Seeds of each mixture of pauses and stops. Some faults need one clock of a stop at one place.
-const SEEDS: u32 = 8;
+const SEEDS: u32 = 4;
 
 /// A run that takes longer hangs: a run of the core without a fault takes less than a second.
 const PATIENCE: Duration = Duration::from_secs(60);

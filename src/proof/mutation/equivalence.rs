@@ -20,7 +20,7 @@ pub(super) fn proved(netlist: &Netlist, mutant: &Mutant) -> Result<bool> {
         instance => format!("c:{instance}*"),
     };
     // Down to bits and without what nothing reads: a bit that is not used is no difference.
-    let bits = "memory_map\nopt_clean\nsimplemap\nopt_clean -purge\n";
+    let bits = "memory_map\nopt_clean\nsimplemap\nsplitnets\nopt_clean -purge\n";
     let script = format!(
         "read_rtlil flat.il\nsubmod -name part {cells}\ndelete {top}\nhierarchy -top part\ndesign -save part\n\
          {bits}rename part gold\ndesign -stash gold\n\
