@@ -9,6 +9,7 @@ mod mutate;
 mod print;
 mod process;
 mod progress;
+mod prove;
 mod scene;
 mod stimulus;
 mod verify;
@@ -39,6 +40,7 @@ enum Command {
     Demo(demo::Demo),
     Mutate(mutate::Mutate),
     Coverage(coverage::Coverage),
+    Prove(prove::Prove),
 }
 
 impl Arguments {
@@ -54,6 +56,7 @@ impl Arguments {
             Command::Demo(command) => command.run(),
             Command::Mutate(command) => command.run(),
             Command::Coverage(command) => command.run(),
+            Command::Prove(command) => command.run(),
         }
     }
 }
