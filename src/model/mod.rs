@@ -5,6 +5,7 @@
 
 mod accumulator;
 mod amplitude;
+mod angle;
 mod cordic;
 mod distance;
 mod framing;
@@ -17,6 +18,7 @@ mod stream;
 
 pub use accumulator::{Accumulator, Sums};
 pub use amplitude::amplitude;
+pub use angle::{Rotated as AngleRotated, Turned, turn};
 pub use cordic::{Rotated, cordic};
 pub use distance::distance;
 pub use framing::{Framing, FramingEvent, PixelSlot};

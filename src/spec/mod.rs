@@ -3,6 +3,7 @@
 //! A [`Pipeline`] is a specification that has been checked, with every number that follows from it
 //! ([`Derived`]). It can only be made by [`Pipeline::new`], so one that exists can be built.
 
+mod angle;
 mod budget;
 mod derived;
 pub mod exact;
@@ -11,6 +12,10 @@ mod presets;
 mod scheme;
 mod word;
 
+pub use angle::{
+    AngleBudget, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic as AngleCordic,
+    ONE_ITERATION_A_CLOCK, Rounding, StageWord, Stages, Throughput,
+};
 pub use budget::{Contribution, ErrorBudget};
 pub use derived::{Derived, Normaliser};
 pub use exact::ScaledConstant;
