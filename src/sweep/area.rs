@@ -1,8 +1,7 @@
 //! What a configuration costs: LUT4 + 2 · CCU2C of an ECP5, synthesised or by a fitted model.
 
-use super::configuration::Configuration;
 use crate::problem::{Problem, Result};
-use crate::spec::exact;
+use crate::spec::{AngleUnit, Architecture};
 
 /// Where an area comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,95 +31,88 @@ pub struct Area {
     pub source: AreaSource,
 }
 
-/// How iterations become hardware.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Layout {
-    /// A stage for each.
-    Unrolled,
-    /// One stage, one iteration a clock.
-    Iterative,
-}
-
 /// Bits of hardware that are counted: the model is linear in them.
 const FEATURES: [&str; 5] = ["fold", "shift", "vector", "angle", "once"];
 
-/// LUT4 + 2 · CCU2C a counted bit.
+/// What a counted bit costs in one architecture: LUT4 + 2 · CCU2C.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AreaModel {
-    /// The layout that it is for.
-    pub layout: Layout,
-    /// One coefficient for each of: bits folded (magnitude, compare, swap), bits shifted by multiplexers, adder bits of x and y, adder
-    /// bits of the angle, and 1 (control).
+    /// One coefficient for each of: bits folded, bits shifted by multiplexers, adder bits of x and y, adder bits of the angle, and
+    /// 1 (control).
     pub coefficients: [f64; 5],
 }
 
 impl AreaModel {
-    /// The model of `layout`, with the coefficients of this table.
-    pub const fn of(layout: Layout) -> Self {
-        let coefficients = match layout {
-            Layout::Unrolled => [3.0, 0.5, 1.5, 1.3, 20.0],
-            Layout::Iterative => [3.0, 0.5, 1.5, 1.3, 60.0],
+    /// The model of `architecture`, with the coefficients of this table, which `vuris sweep --fit-area` prints.
+    pub const fn of(architecture: Architecture) -> Self {
+        let coefficients = match architecture {
+            Architecture::Unrolled => [2.0, 0.5, 1.5, 1.3, 20.0],
+            Architecture::Folded { .. } => [2.0, 0.5, 1.7, 1.3, 40.0],
+            Architecture::Iterative => [2.0, 0.5, 2.0, 2.0, 60.0],
         };
-        Self { layout, coefficients }
+        Self { coefficients }
     }
 
-    /// The counted bits of `configuration`.
+    /// The counted bits of `unit`, from its derived widths.
     ///
     /// - fold: both words;
-    /// - shift: two magnitudes a stage of the normaliser, a stage a bit of the shift; one iterating stage also shifts x and y by a variable
-    ///   number of places;
-    /// - vector: the adders of x and y. y loses a bit an iteration; x no longer changes where 2i exceeds its fraction bits. With √3, the
-    ///   adders of its two constant multiplications, one a non-zero digit but the first (canonical signed digits);
-    /// - angle: the adders of the angle, and the last rounding and unfolding.
-    fn features(layout: Layout, configuration: &Configuration) -> [f64; 5] {
-        let &Configuration { x_bits, y_bits, phase_bits, iterations, angle_guard_bits, .. } = configuration;
-        let fraction_bits = configuration.fraction_bits();
-        let (scaled_bits, scaling_adders) = scaling(configuration);
-        let angle_bits = phase_bits + angle_guard_bits - 1;
-        let stages = |bits: u32| 32 - (bits - 1).leading_zeros();
-        let normaliser = if configuration.normaliser { 2 * scaled_bits * stages(scaled_bits) } else { 0 };
-        let y_bits_after = |i: u32| (fraction_bits + 3).saturating_sub(i).max(2);
-        let x_bits_at = |i: u32| if 2 * i > fraction_bits { 0 } else { fraction_bits + 2 };
-        let (shift, vector, angle) = match layout {
-            Layout::Unrolled => (
-                normaliser,
-                (1..=iterations).map(|i| x_bits_at(i) + y_bits_after(i)).sum::<u32>(),
-                iterations * angle_bits,
-            ),
-            Layout::Iterative => {
-                (normaliser + 2 * (fraction_bits + 2) * stages(iterations), 2 * fraction_bits + 5, angle_bits)
-            }
+    /// - shift: two magnitudes a stage of the normaliser (one stage where it shifts a place a clock), and where a stage serves
+    ///   several iterations, the choice of the places by which its y is shifted for x;
+    /// - vector: y's adder of every stage that is built, and x's as long as x follows; with metric 3 another to triple y;
+    /// - angle: the adders of the angle's groups, or of the one angle;
+    /// - once: 1.
+    fn features(unit: &AngleUnit) -> [f64; 5] {
+        let levels = unit.shifts.len() as u32;
+        let bits_at = |i: u32| {
+            let (x, y) = (unit.stages.x[i as usize].bits, unit.stages.y[i as usize].bits);
+            let tripled = if unit.metric == 3 { y } else { 0 };
+            y + if i <= unit.stages.x_iterations { x + tripled } else { 0 }
         };
-        [x_bits + y_bits, shift, vector + scaling_adders, angle + phase_bits, 1].map(f64::from)
+        let y_bits = unit.stages.y[0].bits;
+        let angles = unit.groups.iter().map(|group| group.bits).sum::<u32>();
+        let choice = |of: u32| y_bits * (u32::BITS - of.saturating_sub(1).leading_zeros());
+        let magnitudes = 2 * unit.magnitude_bits;
+        let (shift, vector, angle) = match unit.architecture {
+            Architecture::Unrolled => (magnitudes * levels, (0..unit.iterations).map(bits_at).sum(), angles),
+            Architecture::Folded { stages, rounds } => {
+                (magnitudes * levels + stages * choice(rounds), stages * bits_at(0), angles)
+            }
+            Architecture::Iterative => (
+                magnitudes * levels.min(1) + choice(unit.stages.x_iterations + 1),
+                bits_at(0),
+                unit.angle_bits,
+            ),
+        };
+        [unit.x_bits + unit.y_bits, shift, vector, angle, 1].map(f64::from)
     }
 
-    /// The area of `configuration`.
-    pub fn area(&self, configuration: &Configuration) -> Area {
-        let features = Self::features(self.layout, configuration);
-        let luts = features.iter().zip(self.coefficients).map(|(bits, cost)| bits * cost).sum();
+    /// The area of `unit`.
+    pub fn area(&self, unit: &AngleUnit) -> Area {
+        let luts = Self::features(unit).iter().zip(self.coefficients).map(|(bits, cost)| bits * cost).sum();
         Area { luts, source: AreaSource::Fitted }
     }
 
-    /// The coefficients with the least squared relative error for synthesised areas, and the largest relative error that is left.
+    /// The coefficients with the least squared relative error for synthesised areas of units of one architecture, and the largest
+    /// relative error that is left.
     ///
     /// # Errors
     /// Fewer points than coefficients, or points that do not tell them apart.
-    pub fn fit(layout: Layout, points: &[(Configuration, f64)]) -> Result<(Self, f64)> {
+    pub fn fit(points: &[(AngleUnit, f64)]) -> Result<(Self, f64)> {
         let refuse = |found: &str| {
             Problem::at("--fit-area", found)
                 .expected(format_args!(
-                    "at least {} synthesised points that differ in words, phase bits, iterations and guard bits",
+                    "at least {} synthesised points of one architecture that differ in words, phase bits, iterations and guard bits",
                     FEATURES.len()
                 ))
-                .remedy("`vuris sweep --synthesise --out DIR` makes points")
+                .remedy("synthesise more configurations")
         };
         if points.len() < FEATURES.len() {
             return Err(refuse(&format!("{} points", points.len())));
         }
         // Normal equations of the relative errors, with the right side in the last column.
         let mut rows = [[0.0; FEATURES.len() + 1]; FEATURES.len()];
-        for (configuration, luts) in points {
-            let features = Self::features(layout, configuration).map(|bits| bits / luts);
+        for (unit, luts) in points {
+            let features = Self::features(unit).map(|bits| bits / luts);
             for (row, &one) in rows.iter_mut().zip(&features) {
                 for (cell, other) in row.iter_mut().zip(features.into_iter().chain([1.0])) {
                     *cell += one * other;
@@ -128,10 +120,8 @@ impl AreaModel {
             }
         }
         let coefficients = solved(rows).ok_or_else(|| refuse("points that are too much alike"))?;
-        let model = Self { layout, coefficients };
-        let relative = |(configuration, luts): &(Configuration, f64)| {
-            (model.area(configuration).luts / luts - 1.0).abs()
-        };
+        let model = Self { coefficients };
+        let relative = |(unit, luts): &(AngleUnit, f64)| (model.area(unit).luts / luts - 1.0).abs();
         let worst = points.iter().map(relative).fold(0.0, f64::max);
         Ok((model, worst))
     }
@@ -140,20 +130,6 @@ impl AreaModel {
     pub fn named(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
         FEATURES.into_iter().zip(self.coefficients)
     }
-}
-
-/// Bits of the larger magnitude behind the scaling, and adder bits that √3 takes.
-fn scaling(configuration: &Configuration) -> (u32, u32) {
-    let &Configuration { x_bits, y_bits, metric, phase_bits, .. } = configuration;
-    if metric == 1 {
-        return (x_bits.max(y_bits), 0);
-    }
-    let (y_factor, x_factor) = exact::sqrt3_ratio(std::f64::consts::TAU / f64::from(phase_bits).exp2() / 8.0);
-    let bits = |factor: i64| 64 - factor.leading_zeros();
-    // Non-zero digits of the canonical signed-digit form: of 3f xor f.
-    let adders = |factor: i64| ((3 * factor) ^ factor).count_ones() - 1;
-    let scaled = (x_bits + bits(x_factor)).max(y_bits + bits(y_factor));
-    (scaled, scaled * (adders(x_factor) + adders(y_factor)))
 }
 
 /// Gauss' elimination with pivots; the last column is the right side.
@@ -178,19 +154,25 @@ fn solved<const N: usize, const M: usize>(mut rows: [[f64; M]; N]) -> Option<[f6
 
 #[cfg(test)]
 mod tests {
+    use super::super::configuration::Configuration;
     use super::super::configuration::tests::word;
     use super::*;
+    use crate::spec::Throughput;
 
-    fn varied() -> Vec<Configuration> {
+    const THROUGHPUTS: [Throughput; 3] =
+        [Throughput::CyclesPerPixel(1), Throughput::CyclesPerPixel(4), Throughput::OneIterationAClock];
+
+    fn varied(throughput: Throughput) -> Vec<AngleUnit> {
         let mut varied = Vec::new();
         for (bits, phase_bits) in [(8, 10), (12, 12), (12, 18), (16, 16), (20, 14)] {
             for (iterations, vector_guard_bits, angle_guard_bits) in [(10, 2, 2), (8, 4, 5), (13, 6, 1)] {
-                varied.push(Configuration {
+                let changed = Configuration {
                     iterations,
                     vector_guard_bits,
                     angle_guard_bits,
                     ..word(bits, phase_bits)
-                });
+                };
+                varied.push(Configuration { throughput, ..changed }.unit().unwrap());
             }
         }
         varied
@@ -199,24 +181,28 @@ mod tests {
     /// Areas made by known coefficients give these back.
     #[test]
     fn a_fit_finds_the_coefficients_that_made_its_points() {
-        for layout in [Layout::Unrolled, Layout::Iterative] {
-            let truth = AreaModel { layout, coefficients: [2.5, 0.75, 1.25, 1.5, 40.0] };
-            let points: Vec<_> = varied().iter().map(|c| (*c, truth.area(c).luts)).collect();
-            let (found, worst) = AreaModel::fit(layout, &points).unwrap();
+        let truth = AreaModel { coefficients: [2.5, 0.75, 1.25, 1.5, 40.0] };
+        for throughput in THROUGHPUTS {
+            let points: Vec<_> =
+                varied(throughput).into_iter().map(|unit| (unit.clone(), truth.area(&unit).luts)).collect();
+            let (found, worst) = AreaModel::fit(&points).unwrap();
             for (a, b) in found.coefficients.iter().zip(truth.coefficients) {
                 assert!((a - b).abs() < 1e-6, "{found:?}");
             }
             assert!(worst < 1e-9);
-            assert!(AreaModel::fit(layout, &points[..4]).is_err());
-            assert!(AreaModel::fit(layout, &[points[0]; 9]).is_err());
+            assert!(AreaModel::fit(&points[..4]).is_err());
+            assert!(AreaModel::fit(&vec![points[0].clone(); 9]).is_err());
         }
     }
 
     #[test]
     fn more_of_anything_costs_more_and_one_stage_less_than_many() {
-        for layout in [Layout::Unrolled, Layout::Iterative] {
-            let luts = |configuration| AreaModel::of(layout).area(&configuration).luts;
-            let base = word(16, 14);
+        let luts = |configuration: Configuration| {
+            let unit = configuration.unit().unwrap();
+            AreaModel::of(unit.architecture).area(&unit).luts
+        };
+        for throughput in THROUGHPUTS {
+            let base = Configuration { throughput, ..word(16, 14) };
             for more in [
                 Configuration { x_bits: 18, ..base },
                 Configuration { phase_bits: 16, ..base },
@@ -224,11 +210,12 @@ mod tests {
                 Configuration { angle_guard_bits: 5, ..base },
                 Configuration { metric: 3, ..base },
             ] {
-                assert!(luts(more) > luts(base), "{layout:?} {more}");
+                assert!(luts(more) > luts(base), "{more}");
             }
             assert!(luts(Configuration { normaliser: false, ..base }) < luts(base));
         }
-        let unrolled = AreaModel::of(Layout::Unrolled).area(&word(16, 16)).luts;
-        assert!(AreaModel::of(Layout::Iterative).area(&word(16, 16)).luts < unrolled / 2.0);
+        let of = |throughput| luts(Configuration { throughput, ..word(16, 16) });
+        let [unrolled, folded, iterative] = THROUGHPUTS.map(of);
+        assert!(iterative < folded && folded < unrolled);
     }
 }

@@ -1,35 +1,11 @@
-//! One point of the design space.
+//! One point of the design space: the fields of an angle unit's specification that a sweep varies.
 
 use crate::problem::{Problem, Result};
+use crate::spec::{AngleCordic, AngleSpecification, AngleUnit, Rounding, Throughput};
 use std::fmt;
-use std::ops::RangeInclusive;
 
-/// What becomes of the bits below a cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Rounding {
-    /// To the nearest value, halves up.
-    Nearest,
-    /// Dropped: towards minus infinity.
-    Truncate,
-}
-
-impl Rounding {
-    /// What a command line and a table call it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Nearest => "nearest",
-            Self::Truncate => "truncate",
-        }
-    }
-
-    /// The one called `name`.
-    pub fn named(name: &str) -> Option<Self> {
-        [Self::Nearest, Self::Truncate].into_iter().find(|rounding| rounding.name() == name)
-    }
-}
-
-/// A unit that makes a phase from two signed words.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+/// An angle unit with both words of at most 30 bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Configuration {
     /// The angle is that of (x, √metric · y): 1 or 3.
     pub metric: i64,
@@ -39,113 +15,132 @@ pub struct Configuration {
     pub y_bits: u32,
     /// Bits of the phase, a fraction of a turn, 4 to 24.
     pub phase_bits: u32,
-    /// CORDIC iterations, 2 to 30, not more than phase bits + vector guard bits.
+    /// The length is wanted to a relative 2^−this; 0: the phase alone.
+    pub length_bits: u32,
+    /// CORDIC iterations, 4 to 30, not more than phase bits + vector guard bits.
     pub iterations: u32,
     /// Bits of the vector below the phase's resolution, 0 to 8.
     pub vector_guard_bits: u32,
     /// Bits of the angle below the phase's resolution, 1 to 8.
     pub angle_guard_bits: u32,
-    /// Whether the vector is shifted up by its leading zeros. The generated hardware does.
+    /// How often a vector can come: it decides the architecture, and the arithmetic with it.
+    pub throughput: Throughput,
+    /// Iterations between two registers of the unrolled architecture.
+    pub pipeline_every: u32,
+    /// Whether the vector is shifted up by its leading zeros.
     pub normaliser: bool,
-    /// What becomes of the bits below a cut. The generated hardware rounds to nearest.
+    /// What becomes of the bits below a cut.
     pub rounding: Rounding,
 }
 
-impl Configuration {
-    /// Limits of the fields, in their order.
-    const LIMITS: [(&'static str, RangeInclusive<u32>); 6] = [
-        ("x bits", 2..=30),
-        ("y bits", 2..=30),
-        ("phase bits", 4..=24),
-        ("iterations", 2..=30),
-        ("vector guard bits", 0..=8),
-        ("angle guard bits", 1..=8),
-    ];
+/// The widest words that exact angles are proved for, see [`super::ExactAngle`].
+const WIDEST_WORD: u32 = 30;
 
-    /// The configuration itself, if it can be built.
-    pub fn checked(self) -> Result<Self> {
-        let values = [
-            self.x_bits,
-            self.y_bits,
-            self.phase_bits,
-            self.iterations,
-            self.vector_guard_bits,
-            self.angle_guard_bits,
-        ];
-        for ((field, allowed), value) in Self::LIMITS.into_iter().zip(values) {
-            if !allowed.contains(&value) {
-                return Err(Problem::at("sweep", format_args!("{field} = {value}")).expected(format_args!(
-                    "{} to {}",
-                    allowed.start(),
-                    allowed.end()
-                )));
+/// What a command line and a table call `rounding`.
+pub const fn rounding_name(rounding: Rounding) -> &'static str {
+    match rounding {
+        Rounding::Nearest => "nearest",
+        Rounding::Truncate => "truncate",
+    }
+}
+
+/// Reads [`rounding_name`].
+pub fn rounding_named(name: &str) -> Option<Rounding> {
+    [Rounding::Nearest, Rounding::Truncate].into_iter().find(|&rounding| rounding_name(rounding) == name)
+}
+
+/// What a table calls `throughput`: clocks a pixel, or `iterative`.
+pub fn throughput_name(throughput: Throughput) -> String {
+    match throughput {
+        Throughput::CyclesPerPixel(clocks) => clocks.to_string(),
+        Throughput::OneIterationAClock => "iterative".to_owned(),
+    }
+}
+
+/// Reads [`throughput_name`].
+pub fn throughput_named(name: &str) -> Option<Throughput> {
+    match name {
+        "iterative" => Some(Throughput::OneIterationAClock),
+        clocks => clocks.parse().ok().map(Throughput::CyclesPerPixel),
+    }
+}
+
+impl Configuration {
+    /// The specification of the unit.
+    pub fn specification(&self) -> AngleSpecification {
+        AngleSpecification {
+            x_bits: self.x_bits,
+            y_bits: self.y_bits,
+            metric: self.metric,
+            phase_bits: self.phase_bits,
+            length_bits: self.length_bits,
+            cordic: AngleCordic {
+                iterations: self.iterations,
+                vector_guard_bits: self.vector_guard_bits,
+                angle_guard_bits: self.angle_guard_bits,
+                throughput: self.throughput,
+                pipeline_every: self.pipeline_every,
+                normalise: self.normaliser,
+                rounding: self.rounding,
+            },
+        }
+    }
+
+    /// The unit.
+    ///
+    /// # Errors
+    /// Words of more than 30 bits, and whatever an angle unit's specification refuses.
+    pub fn unit(&self) -> Result<AngleUnit> {
+        for (field, bits) in [("x bits", self.x_bits), ("y bits", self.y_bits)] {
+            if bits > WIDEST_WORD {
+                return Err(Problem::at("sweep", format_args!("{field} = {bits}"))
+                    .expected(format_args!("at most {WIDEST_WORD}")));
             }
         }
-        if ![1, 3].contains(&self.metric) {
-            return Err(Problem::at("sweep", format_args!("metric = {}", self.metric)).expected("1 or 3"));
-        }
-        if self.iterations > self.fraction_bits() {
-            return Err(Problem::at("sweep", format_args!("iterations = {}", self.iterations)).expected(
-                format_args!(
-                    "at most phase bits + vector guard bits = {}: a later iteration only shifts in zeros",
-                    self.fraction_bits()
-                ),
-            ));
-        }
-        Ok(self)
-    }
-
-    /// Fraction bits of the CORDIC's vector.
-    pub const fn fraction_bits(&self) -> u32 {
-        self.phase_bits + self.vector_guard_bits
-    }
-
-    /// Whether the generator can make this one; the others are there to show what normaliser and rounding are worth.
-    pub fn is_generated(&self) -> bool {
-        self.normaliser && self.rounding == Rounding::Nearest
+        AngleUnit::new("sweep", self.specification())
     }
 
     /// Reads what [`Configuration`] prints.
     pub fn parse(text: &str) -> Option<Self> {
         let parts: Vec<&str> = text.split_whitespace().collect();
-        let [metric, x, y, phase, iterations, vector, angle, normaliser, rounding] = parts[..] else {
+        let [metric, x, y, phase, length, iterations, vector, angle, clocks, every, normaliser, rounding] =
+            parts[..]
+        else {
             return None;
         };
         let number = |text: &str, prefix: &str| text.strip_prefix(prefix)?.parse::<u32>().ok();
-        Self {
+        Some(Self {
             metric: number(metric, "m")?.into(),
             x_bits: number(x, "x")?,
             y_bits: number(y, "y")?,
             phase_bits: number(phase, "p")?,
+            length_bits: number(length, "l")?,
             iterations: number(iterations, "i")?,
             vector_guard_bits: number(vector, "v")?,
             angle_guard_bits: number(angle, "a")?,
+            throughput: throughput_named(clocks.strip_prefix("c")?)?,
+            pipeline_every: number(every, "r")?,
             normaliser: match normaliser {
                 "normalised" => true,
                 "plain" => false,
                 _ => return None,
             },
-            rounding: Rounding::named(rounding)?,
-        }
-        .checked()
-        .ok()
+            rounding: rounding_named(rounding)?,
+        })
     }
 }
 
 impl fmt::Display for Configuration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { metric, x_bits, y_bits, phase_bits, length_bits, iterations, pipeline_every, .. } = self;
         write!(
             f,
-            "m{} x{} y{} p{} i{} v{} a{} {} {}",
-            self.metric,
-            self.x_bits,
-            self.y_bits,
-            self.phase_bits,
-            self.iterations,
+            "m{metric} x{x_bits} y{y_bits} p{phase_bits} l{length_bits} i{iterations} v{} a{} c{} r{pipeline_every} {} {}",
             self.vector_guard_bits,
             self.angle_guard_bits,
+            throughput_name(self.throughput),
             if self.normaliser { "normalised" } else { "plain" },
-            self.rounding.name()
+            rounding_name(self.rounding)
         )
     }
 }
@@ -161,9 +156,12 @@ pub(super) mod tests {
             x_bits: bits,
             y_bits: bits,
             phase_bits,
+            length_bits: 0,
             iterations: phase_bits,
             vector_guard_bits: 3,
             angle_guard_bits: 3,
+            throughput: Throughput::CyclesPerPixel(1),
+            pipeline_every: 1,
             normaliser: true,
             rounding: Rounding::Nearest,
         }
@@ -174,10 +172,17 @@ pub(super) mod tests {
         for configuration in [
             word(16, 16),
             Configuration { metric: 3, normaliser: false, rounding: Rounding::Truncate, ..word(12, 9) },
+            Configuration { throughput: Throughput::OneIterationAClock, length_bits: 12, ..word(12, 9) },
+            Configuration { throughput: Throughput::CyclesPerPixel(4), pipeline_every: 2, ..word(12, 9) },
         ] {
             assert_eq!(Configuration::parse(&configuration.to_string()), Some(configuration));
         }
-        for text in ["", "m1", "m2 x8 y8 p8 i8 v0 a1 plain nearest", "m1 x8 y8 p8 i9 v0 a1 plain nearest"] {
+        for text in [
+            "",
+            "m1",
+            "m1 x8 y8 p8 l0 i8 v0 a1 c1 r1 plain up",
+            "m1 x8 y8 p8 l0 i8 v0 a1 r1 c1 plain nearest",
+        ] {
             assert_eq!(Configuration::parse(text), None, "{text}");
         }
     }
@@ -190,7 +195,7 @@ pub(super) mod tests {
             (Configuration { metric: 2, ..word(16, 16) }, "1 or 3"),
             (Configuration { iterations: 20, ..word(16, 16) }, "= 19"),
         ] {
-            let problem = configuration.checked().unwrap_err().to_string();
+            let problem = configuration.unit().unwrap_err().to_string();
             assert!(problem.contains(says), "{problem}");
         }
     }

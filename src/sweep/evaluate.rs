@@ -1,7 +1,7 @@
 //! The loop: every vector of a plan through the unit and through exact arithmetic.
 
 use super::exact_angle::{ExactAngle, UNIT_BITS};
-use super::phase_unit::PhaseOf;
+use super::phase_of::PhaseOf;
 use super::plan::{Block, Plan, octave_of};
 use super::shard::Shard;
 use super::tally::{OctaveTally, Tally};

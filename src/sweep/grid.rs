@@ -1,11 +1,14 @@
 //! A grid of configurations: every combination of the listed values that can be built.
 
-use super::configuration::{Configuration, Rounding};
+use super::configuration::Configuration;
 use crate::problem::{Problem, Result};
+use crate::spec::{AngleUnit, Rounding, Throughput};
 
 /// The listed values, one list a field.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Grid {
+    /// What no list gives.
+    pub base: Configuration,
     /// Bits of x and y, and the metric.
     pub words: Vec<(u32, u32, i64)>,
     /// Bits of the phase.
@@ -16,6 +19,8 @@ pub struct Grid {
     pub vector_guard_bits: Vec<u32>,
     /// Bits of the angle below the phase's resolution.
     pub angle_guard_bits: Vec<u32>,
+    /// How often a vector can come.
+    pub throughputs: Vec<Throughput>,
     /// With, without normaliser.
     pub normaliser: Vec<bool>,
     /// Roundings.
@@ -61,30 +66,20 @@ impl Grid {
         Ok(numbers)
     }
 
-    /// All combinations that can be built, in the order of the fields; a refusal where there is none.
-    pub fn configurations(&self) -> Result<Vec<Configuration>> {
-        let any = Configuration {
-            metric: 1,
-            x_bits: 0,
-            y_bits: 0,
-            phase_bits: 0,
-            iterations: 0,
-            vector_guard_bits: 0,
-            angle_guard_bits: 0,
-            normaliser: true,
-            rounding: Rounding::Nearest,
-        };
-        let all = times(&[any], &self.words, |c, word| (c.x_bits, c.y_bits, c.metric) = word);
+    /// All combinations that can be built, with their units, in the order of the fields; a refusal where there is none.
+    pub fn configurations(&self) -> Result<Vec<(Configuration, AngleUnit)>> {
+        let all = times(&[self.base], &self.words, |c, word| (c.x_bits, c.y_bits, c.metric) = word);
         let all = times(&all, &self.phase_bits, |c, bits| c.phase_bits = bits);
         let all = times(&all, &self.iterations, |c, iterations| c.iterations = iterations);
         let all = times(&all, &self.vector_guard_bits, |c, bits| c.vector_guard_bits = bits);
         let all = times(&all, &self.angle_guard_bits, |c, bits| c.angle_guard_bits = bits);
+        let all = times(&all, &self.throughputs, |c, throughput| c.throughput = throughput);
         let all = times(&all, &self.normaliser, |c, normaliser| c.normaliser = normaliser);
         let all = times(&all, &self.rounding, |c, rounding| c.rounding = rounding);
         let (mut found, mut refusal) = (Vec::new(), None);
         for configuration in all {
-            match configuration.checked() {
-                Ok(configuration) => found.push(configuration),
+            match configuration.unit() {
+                Ok(unit) => found.push((configuration, unit)),
                 Err(problem) => refusal = Some(problem),
             }
         }
@@ -97,6 +92,7 @@ impl Grid {
 
 #[cfg(test)]
 mod tests {
+    use super::super::configuration::tests::word;
     use super::*;
 
     #[test]
@@ -112,11 +108,13 @@ mod tests {
     #[test]
     fn combinations_that_cannot_be_built_are_left_out_and_none_at_all_is_refused() {
         let grid = Grid {
+            base: word(8, 8),
             words: vec![(8, 8, 1), (9, 8, 3)],
             phase_bits: vec![8],
             iterations: vec![8, 9, 10],
             vector_guard_bits: vec![0, 1],
             angle_guard_bits: vec![1],
+            throughputs: vec![Throughput::CyclesPerPixel(1)],
             normaliser: vec![true, false],
             rounding: vec![Rounding::Nearest],
         };

@@ -2,7 +2,7 @@
 //! them, for many configurations, and what each costs.
 //!
 //! ```text
-//! Grid ─► Configuration ─► PhaseUnit ─┐
+//! Grid ─► Configuration ─► AngleUnit ─┐
 //!             │                       ├─► Tally (integers; shards merge exactly) ─► Figures ─► Point ─► Pareto front
 //!             └─► Plan (vectors) ─────┤                                                ▲
 //!                      ExactAngle ────┘                                     area: fitted or synthesised
@@ -16,21 +16,21 @@ mod exact_angle;
 mod figures;
 mod grid;
 mod pareto;
-mod phase_unit;
+mod phase_of;
 mod plan;
 mod record;
 mod requirement;
 mod shard;
 mod tally;
 
-pub use area::{Area, AreaModel, AreaSource, Layout};
-pub use configuration::{Configuration, Rounding};
+pub use area::{Area, AreaModel, AreaSource};
+pub use configuration::{Configuration, rounding_name, rounding_named, throughput_name, throughput_named};
 pub use evaluate::evaluate;
 pub use exact_angle::{BOUND_UNITS, ExactAngle, UNIT_BITS};
 pub use figures::{Figures, Row};
 pub use grid::Grid;
 pub use pareto::{Point, pareto_front};
-pub use phase_unit::{PhaseOf, PhaseUnit};
+pub use phase_of::PhaseOf;
 pub use plan::{Coverage, Plan};
 pub use record::Record;
 pub use requirement::{Requirement, SensorNoise};

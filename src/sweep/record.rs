@@ -1,7 +1,7 @@
 //! A finished configuration of one shard as a line of text that is checked when it is read again.
 
 use super::configuration::Configuration;
-use super::phase_unit::PhaseOf;
+use super::phase_of::PhaseOf;
 use super::plan::Coverage;
 use super::shard::Shard;
 use super::tally::{OctaveTally, Tally, Worst};
@@ -123,13 +123,13 @@ fn octave(field: &str) -> Option<OctaveTally> {
 #[cfg(test)]
 mod tests {
     use super::super::configuration::tests::word;
-    use super::super::{ExactAngle, PhaseUnit, Plan, evaluate};
+    use super::super::{ExactAngle, Plan, evaluate};
     use super::*;
 
     #[test]
     fn a_line_is_read_as_it_was_written_and_a_damaged_one_not_at_all() {
         let configuration = word(6, 6);
-        let unit = PhaseUnit::new(&configuration);
+        let unit = configuration.unit().unwrap();
         let plan = Plan::new(&configuration, 10, false);
         let tally = evaluate(&unit, &ExactAngle::new(1), &plan, Shard { index: 1, count: 2 }, &|_| ());
         let fingerprint = Record::fingerprint_of(&unit, &configuration);
@@ -147,7 +147,9 @@ mod tests {
 
     #[test]
     fn units_that_differ_have_different_fingerprints() {
-        let print = |configuration| Record::fingerprint_of(&PhaseUnit::new(&configuration), &configuration);
+        let print = |configuration: Configuration| {
+            Record::fingerprint_of(&configuration.unit().unwrap(), &configuration)
+        };
         assert_eq!(print(word(16, 16)), print(word(16, 16)));
         let other = Configuration { angle_guard_bits: 4, ..word(16, 16) };
         assert_ne!(print(word(16, 16)), print(other));

@@ -3,15 +3,16 @@
 mod journal;
 mod output;
 mod recommend;
+mod specification;
 
 use super::print::{counted, say};
 use super::progress;
 use crate::problem::{Problem, Result};
 use crate::report::{front_table, octave_table, sweep_columns, sweep_csv, sweep_parquet, sweep_picture};
-use crate::spec::Pipeline;
+use crate::spec::{AngleUnit, Architecture, Pipeline, Rounding, Throughput};
 use crate::sweep::{
-    AreaModel, Configuration, ExactAngle, Figures, Grid, Layout, PhaseUnit, Plan, Point, Record, Rounding,
-    Shard, Tally, evaluate,
+    AreaModel, Configuration, ExactAngle, Figures, Grid, Plan, Point, Record, Shard, Tally, evaluate,
+    throughput_named,
 };
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
@@ -51,9 +52,9 @@ pub(super) struct Sweep {
     /// What becomes of the bits below a cut; what is generated rounds to nearest
     #[arg(long, value_enum, default_value_t)]
     rounding: RoundingArgument,
-    /// How iterations become hardware, for the area
-    #[arg(long, value_enum, default_value_t)]
-    layout: LayoutArgument,
+    /// Clocks between two pixels, 1 to 64, or "iterative": one iteration a clock
+    #[arg(long, value_name = "LIST")]
+    cycles_per_pixel: Option<String>,
     /// Vectors drawn in each octave of the amplitude, where both words have more than 24 bits together
     #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = clap::value_parser!(u64).range(1..=1 << 28))]
     samples: u64,
@@ -92,15 +93,6 @@ enum RoundingArgument {
     Both,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum LayoutArgument {
-    /// A stage for each iteration, one pixel a clock
-    #[default]
-    Unrolled,
-    /// One stage, one iteration a clock
-    Iterative,
-}
-
 /// How many vectors were evaluated in what time.
 #[derive(Default)]
 struct Effort {
@@ -119,26 +111,22 @@ impl Sweep {
         if self.recommend.is_asked_for() {
             return self.recommended(&pipeline);
         }
-        let configurations = self.grid(&pipeline)?.configurations()?;
+        let candidates = self.grid(&pipeline)?.configurations()?;
         if let Some(text) = &self.shard {
-            return self.one_shard(&configurations, Shard::parse(text)?);
+            return self.one_shard(&candidates, Shard::parse(text)?);
         }
         if let Some(folder) = &self.out {
             output::check(folder)?;
         }
-        let (tallies, effort) = if self.merge {
-            self.merged(&configurations)?
-        } else {
-            self.measured(&configurations, Shard::WHOLE)?
-        };
-        let model = AreaModel::of(self.layout());
-        let point = |(configuration, (plan, tally)): (&Configuration, &(Plan, Tally))| Point {
+        let (tallies, effort) =
+            if self.merge { self.merged(&candidates)? } else { self.measured(&candidates, Shard::WHOLE)? };
+        let point = |((configuration, unit), (plan, tally)): (&Candidate, &(Plan, Tally))| Point {
             configuration: *configuration,
             coverage: plan.coverage(),
             rows: Figures::rows(tally),
-            area: model.area(configuration),
+            area: AreaModel::of(unit.architecture).area(unit),
         };
-        let points: Vec<Point> = configurations.iter().zip(&tallies).map(point).collect();
+        let points: Vec<Point> = candidates.iter().zip(&tallies).map(point).collect();
         self.report(&points, pipeline.modulation.frequency_hz)?;
         if effort.vectors > 0 {
             let seconds = effort.time.as_secs_f64();
@@ -148,40 +136,34 @@ impl Sweep {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn layout(&self) -> Layout {
-        match self.layout {
-            LayoutArgument::Unrolled => Layout::Unrolled,
-            LayoutArgument::Iterative => Layout::Iterative,
-        }
-    }
-
     /// The grid that the options ask for; what they leave out is the specification's.
     fn grid(&self, pipeline: &Pipeline) -> Result<Grid> {
         let numbers = |option: &str, text: &Option<String>, otherwise: u32| match text {
             Some(text) => Grid::numbers(option, text),
             None => Ok(vec![otherwise]),
         };
-        let derived = pipeline.derived();
+        let base = specification::configuration_of(pipeline);
         let words = match &self.word {
             Some(text) => {
                 Grid::numbers("--word", text)?.into_iter().map(|bits| (bits, bits, self.metric)).collect()
             }
-            None => {
-                let metric = pipeline.modulation.scheme.irrational.squared();
-                vec![(derived.in_phase.bits, derived.quadrature.bits, metric)]
-            }
+            None => vec![(base.x_bits, base.y_bits, base.metric)],
         };
-        let cordic = &pipeline.cordic;
         Ok(Grid {
+            base,
             words,
-            phase_bits: numbers("--phase-bits", &self.phase_bits, pipeline.output.phase_bits)?,
-            iterations: numbers("--iterations", &self.iterations, cordic.iterations)?,
+            phase_bits: numbers("--phase-bits", &self.phase_bits, base.phase_bits)?,
+            iterations: numbers("--iterations", &self.iterations, base.iterations)?,
             vector_guard_bits: numbers(
                 "--vector-guard-bits",
                 &self.vector_guard_bits,
-                cordic.vector_guard_bits,
+                base.vector_guard_bits,
             )?,
-            angle_guard_bits: numbers("--angle-guard-bits", &self.angle_guard_bits, cordic.angle_guard_bits)?,
+            angle_guard_bits: numbers("--angle-guard-bits", &self.angle_guard_bits, base.angle_guard_bits)?,
+            throughputs: match &self.cycles_per_pixel {
+                Some(text) => throughputs(text)?,
+                None => vec![base.throughput],
+            },
             normaliser: match self.normaliser {
                 Normaliser::On => vec![true],
                 Normaliser::Off => vec![false],
@@ -196,9 +178,9 @@ impl Sweep {
     }
 
     /// The vectors of each of `configurations`; neighbours with the same words share the work of choosing them.
-    fn plans(&self, configurations: &[Configuration]) -> Result<Vec<Plan>> {
+    fn plans(&self, candidates: &[Candidate]) -> Result<Vec<Plan>> {
         let mut plans: Vec<Plan> = Vec::new();
-        for configuration in configurations {
+        for (configuration, _) in candidates {
             let bits = configuration.x_bits + configuration.y_bits;
             if self.exhaustive && bits > 32 {
                 return Err(Problem::at("--exhaustive", format_args!("words of {bits} bits together"))
@@ -212,20 +194,15 @@ impl Sweep {
     }
 
     /// The sums of `shard` of all configurations: from the journal where it has them, evaluated and written down where not.
-    fn measured(
-        &self,
-        configurations: &[Configuration],
-        shard: Shard,
-    ) -> Result<(Vec<(Plan, Tally)>, Effort)> {
+    fn measured(&self, candidates: &[Candidate], shard: Shard) -> Result<(Vec<(Plan, Tally)>, Effort)> {
         let mut journal = self.out.as_deref().map(|folder| Journal::open(folder, shard)).transpose()?;
-        let plans = self.plans(configurations)?;
+        let plans = self.plans(candidates)?;
         let bar = progress::bar(plans.iter().map(|plan| plan.size(shard)).sum());
         let mut effort = Effort::default();
         let mut tallies = Vec::new();
-        for (configuration, plan) in configurations.iter().zip(plans) {
+        for ((configuration, unit), plan) in candidates.iter().zip(plans) {
             bar.set_message(configuration.to_string());
-            let unit = PhaseUnit::new(configuration);
-            let subject = subject(&unit, configuration, &plan);
+            let subject = subject(unit, configuration, &plan);
             let known = journal.as_ref().and_then(|journal| journal.find(&subject, shard).cloned());
             let tally = match known {
                 Some(tally) => {
@@ -234,7 +211,7 @@ impl Sweep {
                     tally
                 }
                 None => {
-                    let tally = timed(&unit, configuration, &plan, shard, &bar, &mut effort);
+                    let tally = timed(unit, configuration, &plan, shard, &bar, &mut effort);
                     if let Some(journal) = &mut journal {
                         journal.add(&subject, shard, &tally)?;
                     }
@@ -250,30 +227,29 @@ impl Sweep {
         Ok((tallies, effort))
     }
 
-    fn one_shard(&self, configurations: &[Configuration], shard: Shard) -> Result<ExitCode> {
-        self.measured(configurations, shard)?;
+    fn one_shard(&self, candidates: &[Candidate], shard: Shard) -> Result<ExitCode> {
+        self.measured(candidates, shard)?;
         let folder = self.out.as_deref().unwrap_or(Path::new("."));
         say!(
             "{}: shard {shard} of {} is done; when all are, the same command with --merge adds them up",
             journal::path_in(folder, shard).display(),
-            counted(configurations.len(), "configuration")
+            counted(candidates.len(), "configuration")
         );
         Ok(ExitCode::SUCCESS)
     }
 
     /// The sums of all shards, from all journals in the folder.
-    fn merged(&self, configurations: &[Configuration]) -> Result<(Vec<(Plan, Tally)>, Effort)> {
+    fn merged(&self, candidates: &[Candidate]) -> Result<(Vec<(Plan, Tally)>, Effort)> {
         let folder = self.out.as_deref().unwrap_or(Path::new("."));
         let mut records = Vec::new();
         for path in journal::paths_in(folder)? {
             records.extend(journal::read(&path)?.0);
         }
-        let merged = |(configuration, plan): (&Configuration, Plan)| {
-            let subject = subject(&PhaseUnit::new(configuration), configuration, &plan);
+        let merged = |((configuration, unit), plan): (&Candidate, Plan)| {
+            let subject = subject(unit, configuration, &plan);
             Ok((plan, journal::merged(folder, &records, &subject)?))
         };
-        let tallies =
-            configurations.iter().zip(self.plans(configurations)?).map(merged).collect::<Result<_>>()?;
+        let tallies = candidates.iter().zip(self.plans(candidates)?).map(merged).collect::<Result<_>>()?;
         Ok((tallies, Effort::default()))
     }
 
@@ -314,16 +290,41 @@ impl Sweep {
     /// Fits the area model to the synthesised rows of the CSV at `path`.
     fn fit_area(&self, path: &Path) -> Result<ExitCode> {
         let points = output::synthesised_points(path)?;
-        let (model, worst) = AreaModel::fit(self.layout(), &points)?;
-        for (name, luts) in model.named() {
-            say!("{name:7} {luts:9.4} LUTs a bit");
+        let kind = |unit: &AngleUnit| match unit.architecture {
+            Architecture::Unrolled => "unrolled",
+            Architecture::Folded { .. } => "folded",
+            Architecture::Iterative => "one iteration a clock",
+        };
+        for name in ["unrolled", "folded", "one iteration a clock"] {
+            let points: Vec<_> = points.iter().filter(|(unit, _)| kind(unit) == name).cloned().collect();
+            if points.is_empty() {
+                continue;
+            }
+            let (model, worst) = AreaModel::fit(&points)?;
+            say!("{name}: largest deviation {:.1} % over {}", 100.0 * worst, counted(points.len(), "point"));
+            for (name, luts) in model.named() {
+                say!("  {name:7} {luts:9.4} LUTs a bit");
+            }
         }
-        say!("largest deviation {:.1} % over {}", 100.0 * worst, counted(points.len(), "point"));
         Ok(ExitCode::SUCCESS)
     }
 }
 
-fn subject(unit: &PhaseUnit, configuration: &Configuration, plan: &Plan) -> Subject {
+/// What is swept.
+type Candidate = (Configuration, AngleUnit);
+
+/// Reads a list such as `1,4,iterative`.
+fn throughputs(text: &str) -> Result<Vec<Throughput>> {
+    let named = |name: &str| {
+        throughput_named(name).ok_or_else(|| {
+            Problem::at("--cycles-per-pixel", format_args!("\"{text}\""))
+                .expected("whole numbers and \"iterative\", such as 1,4,iterative")
+        })
+    };
+    text.split(',').map(named).collect()
+}
+
+fn subject(unit: &AngleUnit, configuration: &Configuration, plan: &Plan) -> Subject {
     Subject {
         configuration: *configuration,
         coverage: plan.coverage(),
@@ -332,7 +333,7 @@ fn subject(unit: &PhaseUnit, configuration: &Configuration, plan: &Plan) -> Subj
 }
 
 fn timed(
-    unit: &PhaseUnit,
+    unit: &AngleUnit,
     configuration: &Configuration,
     plan: &Plan,
     shard: Shard,

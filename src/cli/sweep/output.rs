@@ -2,7 +2,8 @@
 
 use super::journal;
 use crate::problem::{Problem, Result};
-use crate::sweep::{AreaSource, Configuration, Rounding};
+use crate::spec::AngleUnit;
+use crate::sweep::{AreaSource, Configuration, rounding_named, throughput_named};
 use std::io::Write;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
@@ -51,7 +52,7 @@ pub(super) fn write(folder: &Path, files: [(&str, Vec<u8>); 3]) -> Result<()> {
 }
 
 /// The synthesised configurations and areas of the sweep.csv at `path`.
-pub(super) fn synthesised_points(path: &Path) -> Result<Vec<(Configuration, f64)>> {
+pub(super) fn synthesised_points(path: &Path) -> Result<Vec<(AngleUnit, f64)>> {
     let refuse =
         |found: String| Problem::in_file(path, found).expected("a sweep.csv of `vuris sweep --out DIR`");
     let text = std::fs::read_to_string(path).map_err(|error| Problem::io(path, "read", &error))?;
@@ -76,11 +77,15 @@ pub(super) fn synthesised_points(path: &Path) -> Result<Vec<(Configuration, f64)
             x_bits: number("x_bits")?,
             y_bits: number("y_bits")?,
             phase_bits: number("phase_bits")?,
+            length_bits: number("length_bits")?,
             iterations: number("iterations")?,
             vector_guard_bits: number("vector_guard_bits")?,
             angle_guard_bits: number("angle_guard_bits")?,
+            throughput: throughput_named(field("cycles_per_pixel")?)
+                .ok_or_else(|| refuse(format!("line {line}: cycles_per_pixel")))?,
+            pipeline_every: number("pipeline_every")?,
             normaliser: field("normaliser")? == "yes",
-            rounding: Rounding::named(field("rounding")?)
+            rounding: rounding_named(field("rounding")?)
                 .ok_or_else(|| refuse(format!("line {line}: rounding")))?,
         };
         let luts = field("area_luts")?;
@@ -88,7 +93,7 @@ pub(super) fn synthesised_points(path: &Path) -> Result<Vec<(Configuration, f64)
         if !(luts > 0.0 && luts.is_finite()) {
             return Err(refuse(format!("line {line}: area_luts = {luts}")));
         }
-        points.push((configuration.checked()?, luts));
+        points.push((configuration.unit()?, luts));
     }
     Ok(points)
 }

@@ -2,13 +2,12 @@
 
 use super::super::print::say;
 use super::super::progress;
-use super::Sweep;
+use super::{Candidate, Sweep, specification};
 use crate::physics::{Light, Sensor};
 use crate::problem::{Problem, Result};
-use crate::spec::Pipeline;
+use crate::spec::{AngleUnit, Pipeline};
 use crate::sweep::{
-    AreaModel, Configuration, ExactAngle, Figures, Grid, PhaseUnit, Plan, Requirement, Row, SensorNoise,
-    Shard, evaluate,
+    AreaModel, Configuration, ExactAngle, Figures, Grid, Plan, Requirement, Row, SensorNoise, Shard, evaluate,
 };
 use crate::units::unambiguous_range_m;
 use clap::Args;
@@ -93,34 +92,25 @@ impl Sweep {
     /// Prints the specification of the least area that meets the requirement.
     pub(super) fn recommended(&self, pipeline: &Pipeline) -> Result<ExitCode> {
         let (requirement, words) = self.recommend.requirement(pipeline)?;
-        let model = AreaModel::of(self.layout());
+        let area = |unit: &AngleUnit| AreaModel::of(unit.architecture).area(unit);
         let mut candidates = self.candidates(pipeline, &requirement)?;
-        candidates.sort_by(|a, b| model.area(a).luts.total_cmp(&model.area(b).luts));
+        candidates.sort_by(|(_, a), (_, b)| area(a).luts.total_cmp(&area(b).luts));
         let bar = progress::bar(candidates.len() as u64);
         let mut tried = 0;
-        for configuration in &candidates {
+        for (configuration, unit) in &candidates {
             bar.inc(1);
             tried += 1;
-            let Some(rows) = self.tested(configuration, &requirement) else { continue };
+            let Some(rows) = self.tested(configuration, unit, &requirement) else { continue };
             bar.finish_and_clear();
-            let found = pipeline.adapted("the recommended specification", |specification| {
-                specification.cordic.iterations = configuration.iterations;
-                specification.cordic.vector_guard_bits = configuration.vector_guard_bits;
-                specification.cordic.angle_guard_bits = configuration.angle_guard_bits;
-                specification.output.phase_bits = configuration.phase_bits;
-            })?;
-            let area = model.area(configuration);
+            let found = specification::with(pipeline, configuration)?;
+            let area = area(unit);
             say!("# By `vuris sweep --recommend`: {words}.");
             say!(
                 "# Tried {tried} of {} candidates by rising area; this is the first that holds.",
                 candidates.len()
             );
-            say!(
-                "# Area of normaliser, CORDIC and phase: {:.0} LUT4 + 2 CCU2C ({}).",
-                area.luts,
-                area.source.name()
-            );
-            say!("# {}", errors(&found, &rows, &requirement));
+            say!("# Area of its angle unit: {:.0} LUT4 + 2 CCU2C ({}).", area.luts, area.source.name());
+            say!("# {}", errors(pipeline, unit, &rows, &requirement));
             say!("{}", found.to_toml().trim_end());
             return Ok(ExitCode::SUCCESS);
         }
@@ -134,7 +124,7 @@ impl Sweep {
     }
 
     /// What is tried: the lists of the options, or all that could make sense.
-    fn candidates(&self, pipeline: &Pipeline, requirement: &Requirement) -> Result<Vec<Configuration>> {
+    fn candidates(&self, pipeline: &Pipeline, requirement: &Requirement) -> Result<Vec<Candidate>> {
         let least = requirement.least_phase_bits().max(8);
         let listed = self.grid(pipeline)?;
         let or = |option: &Option<String>, list: Vec<u32>, otherwise: Vec<u32>| {
@@ -150,7 +140,7 @@ impl Sweep {
         let mut candidates = grid.configurations()?;
         let free = self.iterations.is_none();
         // More phase bits than three beyond the least, or iterations far from the phase bits, only cost.
-        candidates.retain(|c| {
+        candidates.retain(|(c, _)| {
             c.phase_bits >= least
                 && (self.phase_bits.is_some() || c.phase_bits <= least + 3)
                 && (!free || c.iterations.abs_diff(c.phase_bits) <= 4)
@@ -159,10 +149,14 @@ impl Sweep {
     }
 
     /// The errors of `configuration` if they meet `requirement`.
-    fn tested(&self, configuration: &Configuration, requirement: &Requirement) -> Option<Vec<Row>> {
-        let unit = PhaseUnit::new(configuration);
+    fn tested(
+        &self,
+        configuration: &Configuration,
+        unit: &AngleUnit,
+        requirement: &Requirement,
+    ) -> Option<Vec<Row>> {
         let exact = ExactAngle::new(configuration.metric);
-        let rows = |plan: &Plan| Figures::rows(&evaluate(&unit, &exact, plan, Shard::WHOLE, &|_| ()));
+        let rows = |plan: &Plan| Figures::rows(&evaluate(unit, &exact, plan, Shard::WHOLE, &|_| ()));
         // A few vectors first: a largest error only grows with more.
         if matches!(requirement, Requirement::Error { .. })
             && !requirement.is_met(&rows(&Plan::new(configuration, PROBE_SAMPLES, false)))
@@ -175,10 +169,10 @@ impl Sweep {
 }
 
 /// A line of what was measured and what is proved.
-fn errors(pipeline: &Pipeline, rows: &[Row], requirement: &Requirement) -> String {
+fn errors(pipeline: &Pipeline, unit: &AngleUnit, rows: &[Row], requirement: &Requirement) -> String {
     let max_turns = rows.first().map_or(f64::NAN, |row| row.figures.max_turns);
-    let codes = f64::from(pipeline.output.phase_bits).exp2();
-    let proved_turns = pipeline.budget().phase_codes() / codes;
+    let codes = f64::from(unit.phase_bits).exp2();
+    let proved_turns = unit.budget().phase_codes() / codes;
     let turn_mm = 1e3 * unambiguous_range_m(pipeline.modulation.frequency_hz);
     let size = |turns: f64| {
         format!("{:.4} mrad = {:.4} mm = {:.3} LSB", 1e3 * TAU * turns, turns * turn_mm, turns * codes)

@@ -1,6 +1,6 @@
 //! The columns of a sweep's table, each once: CSV and Parquet are written from them.
 
-use crate::sweep::{Coverage, Figures, Point, Row};
+use crate::sweep::{Coverage, Figures, Point, Row, rounding_name, throughput_name};
 use crate::units::unambiguous_range_m;
 use std::f64::consts::TAU;
 
@@ -60,9 +60,11 @@ pub fn sweep_columns(points: &[Point], frequency_hz: f64) -> Vec<Column> {
         integers("iterations", &|p, _| p.configuration.iterations.into()),
         integers("vector_guard_bits", &|p, _| p.configuration.vector_guard_bits.into()),
         integers("angle_guard_bits", &|p, _| p.configuration.angle_guard_bits.into()),
+        integers("length_bits", &|p, _| p.configuration.length_bits.into()),
+        texts("cycles_per_pixel", &|p, _| throughput_name(p.configuration.throughput)),
+        integers("pipeline_every", &|p, _| p.configuration.pipeline_every.into()),
         texts("normaliser", &|p, _| yes_no(p.configuration.normaliser)),
-        texts("rounding", &|p, _| p.configuration.rounding.name().to_owned()),
-        texts("generated", &|p, _| yes_no(p.configuration.is_generated())),
+        texts("rounding", &|p, _| rounding_name(p.configuration.rounding).to_owned()),
         reals("area_luts", &|p, _| p.area.luts),
         texts("area_source", &|p, _| p.area.source.name().to_owned()),
         texts("coverage", &|p, _| match p.coverage {

@@ -2,15 +2,26 @@
 
 use super::super::svg::{MARGIN, Svg, WIDTH};
 use super::columns::units;
+use crate::spec::Throughput;
 use crate::sweep::{Point, pareto_front};
 
 const TOP: f64 = 100.0;
 const HEIGHT: f64 = 460.0;
 const LEFT: f64 = MARGIN + 66.0;
 const RIGHT: f64 = WIDTH - MARGIN - 66.0;
-const FRONT: &str = "#0550ae";
-const GENERATED: &str = "#54aeff";
-const COMPARED: &str = "#d4a72c";
+const FRONT: &str = "#1f2328";
+/// By architecture: what a dot's colour means.
+const KINDS: [(&str, &str); 3] =
+    [("#54aeff", "unrolled"), ("#8250df", "folded"), ("#d4a72c", "one iteration a clock")];
+
+/// The place of a point's architecture in [`KINDS`].
+fn kind(point: &Point) -> usize {
+    match point.configuration.throughput {
+        Throughput::CyclesPerPixel(1) => 0,
+        Throughput::CyclesPerPixel(_) => 1,
+        Throughput::OneIterationAClock => 2,
+    }
+}
 
 /// A logarithmic axis over whole decades, or parts of one.
 struct Axis {
@@ -86,25 +97,20 @@ pub fn sweep_picture(points: &[Point], frequency_hz: f64, subtitle: &str) -> Str
     );
 
     let at = |point: &Point| (area.at(point.area.luts), error.at(point.max_turns() * mrad));
-    for (generated, colour) in [(false, COMPARED), (true, GENERATED)] {
-        for point in points.iter().filter(|point| point.configuration.is_generated() == generated) {
-            svg.dot(at(point), 3.0, colour, &point.configuration.to_string());
-        }
+    for point in points {
+        svg.dot(at(point), 3.0, KINDS[kind(point)].0, &point.configuration.to_string());
     }
     let front: Vec<&Point> = pareto_front(points).into_iter().map(|place| &points[place]).collect();
     svg.stroke(&front.iter().map(|point| at(point)).collect::<Vec<_>>(), FRONT, 1.5);
     for point in &front {
-        svg.dot(at(point), 4.5, FRONT, &point.configuration.to_string());
+        svg.dot(at(point), 4.5, KINDS[kind(point)].0, &point.configuration.to_string());
     }
-    let legend = [
-        (FRONT, "no other is smaller and as exact"),
-        (GENERATED, "can be generated"),
-        (COMPARED, "for comparison: without normaliser, or truncating"),
-    ];
-    for (place, (colour, text)) in (0..).zip(legend) {
-        let x = LEFT + [0.0, 270.0, 430.0][place];
-        svg.swatch(x, bottom + 66.0, colour);
-        svg.text(x + 19.0, bottom + 76.5, "soft", text);
+    let y = bottom + 76.5;
+    svg.stroke(&[(LEFT, y - 4.5), (LEFT + 24.0, y - 4.5)], FRONT, 1.5);
+    svg.text(LEFT + 31.0, y, "soft", "no other is smaller and as exact");
+    for ((colour, text), x) in KINDS.into_iter().zip([270.0, 380.0, 480.0]) {
+        svg.swatch(LEFT + x, y - 10.5, colour);
+        svg.text(LEFT + x + 19.0, y, "soft", text);
     }
     svg.end()
 }

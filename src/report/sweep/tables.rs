@@ -1,7 +1,7 @@
 //! A sweep's tables: the Pareto front, and one configuration octave by octave.
 
 use super::columns::units;
-use crate::sweep::{Coverage, Point, pareto_front};
+use crate::sweep::{Coverage, Point, pareto_front, rounding_name, throughput_name};
 use comfy_table::{ContentArrangement, Table, presets};
 
 fn table(header: &[&str], rows: Vec<Vec<String>>) -> String {
@@ -34,6 +34,7 @@ pub fn front_table(points: &[Point], frequency_hz: f64) -> String {
         "guard angle",
         "normaliser",
         "rounding",
+        "clocks a pixel",
         "max LSB",
         "max mrad",
         "max mm",
@@ -53,7 +54,8 @@ pub fn front_table(points: &[Point], frequency_hz: f64) -> String {
             c.vector_guard_bits.to_string(),
             c.angle_guard_bits.to_string(),
             if c.normaliser { "yes" } else { "no" }.to_owned(),
-            c.rounding.name().to_owned(),
+            rounding_name(c.rounding).to_owned(),
+            throughput_name(c.throughput),
         ];
         if let Some(figures) = point.overall() {
             let worst = figures.worst.map_or(String::new(), |worst| format!("{}, {}", worst.x, worst.y));
