@@ -12,9 +12,13 @@ type Edges<'a> = [(&'a str, &'a str)];
 /// Which module may see which others. An edge that is not here is refused, and so is one here that nobody needs.
 const EDGES: &Edges = &[
     ("main", "cli"),
-    ("cli", "artifact cosim frames hdl model physics problem ranging recording reference report spec units"),
-    ("report", "frames hdl problem spec units"),
+    (
+        "cli",
+        "artifact cosim frames hdl model physics problem ranging recording reference report spec sweep units",
+    ),
+    ("report", "frames hdl problem spec sweep units"),
     ("ranging", "problem recording reference units"),
+    ("sweep", "model physics problem spec units"),
     ("cosim", "artifact frames hdl model problem spec"),
     ("hdl", "artifact frames model spec units"),
     ("physics", "frames problem spec units"),
@@ -35,6 +39,7 @@ const LAYERS: &[&str] = &[
     "cli",
     "report",
     "ranging",
+    "sweep",
     "cosim hdl physics recording",
     "model reference",
     "spec frames units",

@@ -3,6 +3,7 @@
 use super::configuration::Configuration;
 use crate::problem::{Problem, Result};
 use crate::spec::{AngleUnit, Rounding, Throughput};
+use rayon::prelude::*;
 
 /// The listed values, one list a field.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -76,9 +77,11 @@ impl Grid {
         let all = times(&all, &self.throughputs, |c, throughput| c.throughput = throughput);
         let all = times(&all, &self.normaliser, |c, normaliser| c.normaliser = normaliser);
         let all = times(&all, &self.rounding, |c, rounding| c.rounding = rounding);
+        // The tables of angles of a unit take a millisecond each.
+        let units: Vec<Result<AngleUnit>> = all.par_iter().map(Configuration::unit).collect();
         let (mut found, mut refusal) = (Vec::new(), None);
-        for configuration in all {
-            match configuration.unit() {
+        for (configuration, unit) in all.into_iter().zip(units) {
+            match unit {
                 Ok(unit) => found.push((configuration, unit)),
                 Err(problem) => refusal = Some(problem),
             }

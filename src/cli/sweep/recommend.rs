@@ -7,13 +7,14 @@ use crate::physics::{Light, Sensor};
 use crate::problem::{Problem, Result};
 use crate::spec::{AngleUnit, Pipeline};
 use crate::sweep::{
-    AreaModel, Configuration, ExactAngle, Figures, Grid, Plan, Requirement, Row, SensorNoise, Shard, evaluate,
+    AreaModel, ExactAngle, Figures, Grid, Plan, Requirement, Row, SensorNoise, Shard, evaluate,
 };
 use crate::units::unambiguous_range_m;
 use clap::Args;
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
+const MOST_PHASE_BITS: u32 = 24;
 /// Vectors an octave with which most of what fails is seen to fail.
 const PROBE_SAMPLES: u64 = 64;
 
@@ -25,6 +26,9 @@ pub(super) struct Recommend {
     /// Largest error of the phase, such as 0.1mrad, 0.01deg or 0.5mm
     #[arg(long, value_name = "ERROR", requires = "recommend", conflicts_with = "add_noise")]
     error: Option<String>,
+    /// The proved worst case must hold too, not only the largest error found
+    #[arg(long, requires = "error")]
+    proved: bool,
     /// Share of the sensor's own phase noise that the arithmetic may add, such as 1%
     #[arg(long, value_name = "SHARE", requires = "recommend")]
     add_noise: Option<String>,
@@ -94,13 +98,16 @@ impl Sweep {
         let (requirement, words) = self.recommend.requirement(pipeline)?;
         let area = |unit: &AngleUnit| AreaModel::of(unit.architecture).area(unit);
         let mut candidates = self.candidates(pipeline, &requirement)?;
+        let Some(&(first, _)) = candidates.first() else { return Err(unmet(0, &words)) };
+        let probe = Plan::new(&first, PROBE_SAMPLES, false);
+        let plan = Plan::new(&first, self.samples, self.exhaustive);
         candidates.sort_by(|(_, a), (_, b)| area(a).luts.total_cmp(&area(b).luts));
         let bar = progress::bar(candidates.len() as u64);
         let mut tried = 0;
         for (configuration, unit) in &candidates {
             bar.inc(1);
             tried += 1;
-            let Some(rows) = self.tested(configuration, unit, &requirement) else { continue };
+            let Some(rows) = self.tested(unit, &requirement, [&probe, &plan]) else { continue };
             bar.finish_and_clear();
             let found = specification::with(pipeline, configuration)?;
             let area = area(unit);
@@ -115,57 +122,66 @@ impl Sweep {
             return Ok(ExitCode::SUCCESS);
         }
         bar.finish_and_clear();
-        Err(Problem::at(
-            "--recommend",
-            format_args!("none of {} candidates holds: {words}", candidates.len()),
-        )
-        .expected("a requirement that 24 bits of phase can meet")
-        .remedy("ask for less, or widen --phase-bits, --iterations, --vector-guard-bits, --angle-guard-bits"))
+        Err(unmet(candidates.len(), &words))
     }
 
     /// What is tried: the lists of the options, or all that could make sense.
     fn candidates(&self, pipeline: &Pipeline, requirement: &Requirement) -> Result<Vec<Candidate>> {
+        // A specification's phase has 8 to 24 bits.
         let least = requirement.least_phase_bits().max(8);
+        if least > MOST_PHASE_BITS {
+            return Ok(Vec::new());
+        }
+        // Iterations far from the phase bits cost, or cannot do.
+        let iterations = least.saturating_sub(3).max(4)..=(least + 7).min(30);
         let listed = self.grid(pipeline)?;
         let or = |option: &Option<String>, list: Vec<u32>, otherwise: Vec<u32>| {
             if option.is_some() { list } else { otherwise }
         };
         let grid = Grid {
-            phase_bits: or(&self.phase_bits, listed.phase_bits, (least..=least.max(21) + 3).collect()),
-            iterations: or(&self.iterations, listed.iterations, (4..=30).collect()),
-            vector_guard_bits: or(&self.vector_guard_bits, listed.vector_guard_bits, (0..=8).collect()),
-            angle_guard_bits: or(&self.angle_guard_bits, listed.angle_guard_bits, (1..=8).collect()),
+            phase_bits: or(
+                &self.phase_bits,
+                listed.phase_bits,
+                (least..=MOST_PHASE_BITS.min(least + 3)).collect(),
+            ),
+            iterations: or(&self.iterations, listed.iterations, iterations.collect()),
+            vector_guard_bits: or(&self.vector_guard_bits, listed.vector_guard_bits, (0..=5).collect()),
+            angle_guard_bits: or(&self.angle_guard_bits, listed.angle_guard_bits, (1..=6).collect()),
             ..listed
         };
         let mut candidates = grid.configurations()?;
-        let free = self.iterations.is_none();
-        // More phase bits than three beyond the least, or iterations far from the phase bits, only cost.
-        candidates.retain(|(c, _)| {
-            c.phase_bits >= least
-                && (self.phase_bits.is_some() || c.phase_bits <= least + 3)
-                && (!free || c.iterations.abs_diff(c.phase_bits) <= 4)
+        candidates.retain(|(configuration, unit)| {
+            let proved = match *requirement {
+                Requirement::Error { turns } if self.recommend.proved => {
+                    unit.budget().phase_rad() / TAU <= turns
+                }
+                _ => true,
+            };
+            configuration.phase_bits >= least && proved
         });
         Ok(candidates)
     }
 
-    /// The errors of `configuration` if they meet `requirement`.
-    fn tested(
-        &self,
-        configuration: &Configuration,
-        unit: &AngleUnit,
-        requirement: &Requirement,
-    ) -> Option<Vec<Row>> {
-        let exact = ExactAngle::new(configuration.metric);
+    /// The errors of `unit` over the second of `plans` if they meet `requirement`.
+    fn tested(&self, unit: &AngleUnit, requirement: &Requirement, plans: [&Plan; 2]) -> Option<Vec<Row>> {
+        let exact = ExactAngle::new(unit.metric);
         let rows = |plan: &Plan| Figures::rows(&evaluate(unit, &exact, plan, Shard::WHOLE, &|_| ()));
         // A few vectors first: a largest error only grows with more.
-        if matches!(requirement, Requirement::Error { .. })
-            && !requirement.is_met(&rows(&Plan::new(configuration, PROBE_SAMPLES, false)))
-        {
+        let [probe, plan] = plans;
+        if matches!(requirement, Requirement::Error { .. }) && !requirement.is_met(&rows(probe)) {
             return None;
         }
-        let rows = rows(&Plan::new(configuration, self.samples, self.exhaustive));
+        let rows = rows(plan);
         requirement.is_met(&rows).then_some(rows)
     }
+}
+
+fn unmet(candidates: usize, words: &str) -> Problem {
+    Problem::at("--recommend", format_args!("none of {candidates} candidates holds: {words}"))
+        .expected("a requirement that 24 bits of phase and 6 of guard can meet")
+        .remedy(
+            "ask for less, or give other --phase-bits, --iterations, --vector-guard-bits, --angle-guard-bits",
+        )
 }
 
 /// A line of what was measured and what is proved.

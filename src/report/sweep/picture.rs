@@ -46,9 +46,13 @@ impl Axis {
         self.from + place.clamp(0.0, 1.0) * (self.to - self.from)
     }
 
-    /// 1, 2, 5 times powers of ten; over many decades the powers only.
+    /// Round numbers: over many decades powers of ten only.
     fn ticks(&self) -> Vec<f64> {
-        let mantissas: &[f64] = if self.high - self.low > 3.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
+        let mantissas: &[f64] = match self.high - self.low {
+            decades if decades > 3.0 => &[1.0],
+            decades if decades > 1.0 => &[1.0, 2.0, 5.0],
+            _ => &[1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0],
+        };
         let decades = self.low.floor() as i32..=self.high.ceil() as i32;
         decades
             .flat_map(|decade| mantissas.iter().map(move |mantissa| mantissa * 10f64.powi(decade)))
