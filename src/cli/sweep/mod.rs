@@ -290,6 +290,10 @@ impl Sweep {
     /// Fits the area model to the synthesised rows of the CSV at `path`.
     fn fit_area(&self, path: &Path) -> Result<ExitCode> {
         let points = output::synthesised_points(path)?;
+        if points.is_empty() {
+            return Err(Problem::in_file(path, "has no synthesised area")
+                .expected("rows with area_source \"synthesised\""));
+        }
         let kind = |unit: &AngleUnit| match unit.architecture {
             Architecture::Unrolled => "unrolled",
             Architecture::Folded { .. } => "folded",
