@@ -14,7 +14,7 @@ mod stream;
 
 pub use accumulator::{Accumulator, Sums};
 pub use amplitude::amplitude;
-pub use angle::{Normalised, Rotated, Turned, normalise, rotate, scaled_start, turn};
+pub use angle::{Normalised, Rotated, Turned, normalise, rotate, rotate_seen, scaled_start, turn};
 pub use distance::distance;
 pub use framing::{Framing, FramingEvent, PixelSlot};
 pub use offset::offset;
