@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 use vuris::model::turn;
-use vuris::spec::{AngleCordic, AngleSpecification, AngleUnit, Rounding, Throughput};
+use vuris::spec::{AngleSpecification, AngleUnit, Cordic, Rounding, Throughput};
 
-fn unit(bits: u32, metric: i64, phase_bits: u32, cordic: AngleCordic, length_bits: u32) -> AngleUnit {
+fn unit(bits: u32, metric: i64, phase_bits: u32, cordic: Cordic, length_bits: u32) -> AngleUnit {
     let specification =
         AngleSpecification { x_bits: bits, y_bits: bits, metric, phase_bits, length_bits, cordic };
     AngleUnit::new("test", specification).unwrap()
@@ -50,8 +50,8 @@ fn no_vector_is_further_off_than_the_budget_says() {
             ] {
                 for length_bits in [0, 16] {
                     for rounding in [Rounding::Nearest, Rounding::Truncate] {
-                        let base = AngleCordic::new(iterations, vector_guard_bits, angle_guard_bits);
-                        let cordic = AngleCordic { throughput, rounding, ..base };
+                        let base = Cordic::new(iterations, vector_guard_bits, angle_guard_bits);
+                        let cordic = Cordic { throughput, rounding, ..base };
                         let unit = unit(bits, metric, phase_bits, cordic, length_bits);
                         let bound = unit.budget().phase_codes();
                         let worst =
@@ -69,7 +69,7 @@ fn no_vector_is_further_off_than_the_budget_says() {
 #[test]
 fn twelve_bits_are_faithful_without_exception() {
     for throughput in [Throughput::CyclesPerPixel(1), Throughput::OneIterationAClock] {
-        let unit = unit(12, 1, 12, AngleCordic { throughput, ..AngleCordic::new(12, 3, 4) }, 0);
+        let unit = unit(12, 1, 12, Cordic { throughput, ..Cordic::new(12, 3, 4) }, 0);
         assert!(unit.budget().phase_codes() < 1.0);
         for x in -2048..2048 {
             for y in -2048..2048 {

@@ -94,11 +94,16 @@ fn shifted(value: i64, places: u32, rounding: Rounding) -> i64 {
 /// direction is the sign's exclusive or with all before it. With metric 3 the coordinates are x and √3 y and the tangents
 /// √3 · 2^−i, so that x gets 3 · 2^−i y and y 2^−i x: the five-frame algorithm's √3 costs no multiplier.
 pub fn rotate(unit: &AngleUnit, vector: Normalised) -> Rotated {
-    if unit.stages.scaled { rotate_scaled(unit, vector) } else { rotate_narrowing(unit, vector) }
+    rotate_seen(unit, vector, |i, x, y| check(unit, i, x, y))
+}
+
+/// The same, showing `see` every iteration's number, and x and y after it.
+pub fn rotate_seen(unit: &AngleUnit, vector: Normalised, see: impl FnMut(u32, i64, i64)) -> Rotated {
+    if unit.stages.scaled { rotate_scaled(unit, vector, see) } else { rotate_narrowing(unit, vector, see) }
 }
 
 /// Every iteration's y a bit narrower than the last one's: the unrolled hardware.
-fn rotate_narrowing(unit: &AngleUnit, vector: Normalised) -> Rotated {
+fn rotate_narrowing(unit: &AngleUnit, vector: Normalised, mut see: impl FnMut(u32, i64, i64)) -> Rotated {
     let Normalised { x: vx, y: vy, x_negative, y_negative, .. } = vector;
     let (x_one, y_one) = (i64::from(x_negative), i64::from(y_negative));
     let (pad, drop) = (unit.pad_bits(), unit.drop_bits());
@@ -112,7 +117,7 @@ fn rotate_narrowing(unit: &AngleUnit, vector: Normalised) -> Rotated {
         let difference = (vy >> drop) - (vx >> drop) - 1 + y_one;
         (wide_x + 3 * wide_y + 2 * y_one + x_one, (difference << pad) | ones(1 - x_one))
     };
-    check(unit, 0, x, y);
+    see(0, x, y);
     let mut direction = u64::from(x_negative != y_negative);
     let mut directions = direction;
     for i in 1..=unit.iterations {
@@ -131,13 +136,13 @@ fn rotate_narrowing(unit: &AngleUnit, vector: Normalised) -> Rotated {
                 shifted(unit.metric * magnitude, i + y_fraction - after.fraction_bits, unit.cordic.rounding);
             x = (x >> (before.fraction_bits - after.fraction_bits)) + part;
         }
-        check(unit, i, x, y);
+        see(i, x, y);
     }
     Rotated { x, directions }
 }
 
 /// y doubled at every iteration: the folded and the iterative hardware. Nothing is cut off y.
-fn rotate_scaled(unit: &AngleUnit, vector: Normalised) -> Rotated {
+fn rotate_scaled(unit: &AngleUnit, vector: Normalised, mut see: impl FnMut(u32, i64, i64)) -> Rotated {
     let (mut x, mut y) = scaled_start(unit, vector);
     let mut direction = u64::from(vector.x_negative != vector.y_negative);
     let mut directions = direction;
@@ -151,7 +156,7 @@ fn rotate_scaled(unit: &AngleUnit, vector: Normalised) -> Rotated {
             x += if i == 0 { 2 * part } else { shifted(part, 2 * i - 1, unit.cordic.rounding) };
         }
         y = next;
-        check(unit, i, x, y);
+        see(i, x, y);
         sign = y >> 63;
         direction ^= sign as u64 & 1;
         directions = directions << 1 | direction;

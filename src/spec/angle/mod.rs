@@ -204,17 +204,28 @@ impl AngleUnit {
         self.length_bits > 0
     }
 
+    /// Steps of the unrolled iterations between which a register can stand: one an iteration, one more where y is tripled first.
+    pub fn moves(&self) -> u32 {
+        let tripled = if self.metric == 3 { self.stages.x_iterations + 1 } else { 0 };
+        self.iterations + tripled
+    }
+
+    /// Clocks of the sum of angles: the tables, then an adder a group.
+    pub fn sum_clocks(&self) -> u32 {
+        (self.groups.len() as u32).max(2)
+    }
+
     /// Clocks from an accepted vector to its phase, where nothing waits and (iterative) nothing has to be shifted.
     pub fn latency_clocks(&self) -> u32 {
         let levels = self.shifts.len() as u32;
         let registers = |moves: u32| moves.div_ceil(self.cordic.pipeline_every);
-        let sum = self.groups.len() as u32;
         match self.architecture {
-            // Fold, shifts, iterations 0 to n - 1 (each of the first with a register more where y is tripled), sum.
-            Architecture::Unrolled => 1 + registers(levels) + registers(self.iterations) + 1 + sum,
-            Architecture::Folded { rounds, stages } => 1 + levels + rounds * stages + 1 + sum,
-            // Load, iterations, last sign, result.
-            Architecture::Iterative => 1 + self.iterations + 1 + 1,
+            // Input, shifts, iterations, last direction, sum.
+            Architecture::Unrolled => 1 + registers(levels) + registers(self.moves()) + 1 + self.sum_clocks(),
+            // Input, shifts, entry, rounds, sum.
+            Architecture::Folded { rounds, stages } => 1 + levels + 1 + rounds * stages + self.sum_clocks(),
+            // Input, start, iterations 0 to n - 1 and the last direction's, result.
+            Architecture::Iterative => 2 + self.iterations + 1 + 1,
         }
     }
 
@@ -223,14 +234,14 @@ impl AngleUnit {
         match self.architecture {
             Architecture::Unrolled => 1,
             Architecture::Folded { rounds, .. } => rounds,
-            Architecture::Iterative => (self.iterations + 1).max(shift + 2),
+            Architecture::Iterative => (self.iterations + 2).max(shift + 2),
         }
     }
 }
 
 /// The least hardware that meets the throughput.
 fn architecture(cordic: &Cordic, magnitude_bits: u32) -> Architecture {
-    let iterative_clocks = (cordic.iterations + 1).max(if cordic.normalise { magnitude_bits + 2 } else { 0 });
+    let iterative_clocks = (cordic.iterations + 2).max(if cordic.normalise { magnitude_bits + 2 } else { 0 });
     match cordic.throughput {
         Throughput::CyclesPerPixel(1) => Architecture::Unrolled,
         Throughput::CyclesPerPixel(clocks) if clocks < iterative_clocks => {

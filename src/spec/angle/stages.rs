@@ -67,13 +67,17 @@ impl Stages {
             let y = (0..iterations).map(|i| StageWord { fraction_bits: full + i, ..y }).collect();
             return Self { x, y, x_iterations, scaled };
         }
-        let y = (0..iterations)
+        let mut y: Vec<StageWord> = (0..iterations)
             .map(|i| match i {
                 // The difference of two magnitudes, exactly.
                 0 => StageWord { bits: full + 2, fraction_bits: full },
                 _ => y_word(y_reach[i as usize] * f64::from(full).exp2() + f64::from(3 + i), full),
             })
             .collect();
+        // A magnitude has a bit less than its y; narrower words would have to cut its top.
+        for i in 1..y.len() {
+            y[i].bits = y[i].bits.max(y[i - 1].bits - 1);
+        }
         Self { x, y, x_iterations, scaled }
     }
 }
