@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
-use vuris::spec::{AngleCordic, AngleSpecification, AngleUnit, Pipeline};
+use vuris::spec::{AngleSpecification, AngleUnit, Cordic, Pipeline};
 
 const GRID: &[&str] = &[
     "sweep",
@@ -220,11 +220,7 @@ fn a_recommendation_is_a_specification_that_holds_what_was_asked() {
             metric: 1,
             phase_bits: field(&toml, "phase_bits"),
             length_bits: 0,
-            cordic: AngleCordic::new(
-                field(&toml, "iterations"),
-                field(&toml, "vector_guard_bits"),
-                guard_bits,
-            ),
+            cordic: Cordic::new(field(&toml, "iterations"), field(&toml, "vector_guard_bits"), guard_bits),
         };
         AngleUnit::new("small.toml", specification).unwrap()
     };

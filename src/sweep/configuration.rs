@@ -1,7 +1,7 @@
 //! One point of the design space: the fields of an angle unit's specification that a sweep varies.
 
 use crate::problem::{Problem, Result};
-use crate::spec::{AngleCordic, AngleSpecification, AngleUnit, Rounding, Throughput};
+use crate::spec::{AngleSpecification, AngleUnit, Cordic, Rounding, Throughput};
 use std::fmt;
 
 /// An angle unit with both words of at most 30 bits.
@@ -66,6 +66,26 @@ pub fn throughput_named(name: &str) -> Option<Throughput> {
 }
 
 impl Configuration {
+    /// The configuration of `specification`.
+    pub fn of(specification: &AngleSpecification) -> Self {
+        let &AngleSpecification { x_bits, y_bits, metric, phase_bits, length_bits, ref cordic } =
+            specification;
+        Self {
+            metric,
+            x_bits,
+            y_bits,
+            phase_bits,
+            length_bits,
+            iterations: cordic.iterations,
+            vector_guard_bits: cordic.vector_guard_bits,
+            angle_guard_bits: cordic.angle_guard_bits,
+            throughput: cordic.throughput,
+            pipeline_every: cordic.pipeline_every,
+            normaliser: cordic.normalise,
+            rounding: cordic.rounding,
+        }
+    }
+
     /// The specification of the unit.
     pub fn specification(&self) -> AngleSpecification {
         AngleSpecification {
@@ -74,7 +94,7 @@ impl Configuration {
             metric: self.metric,
             phase_bits: self.phase_bits,
             length_bits: self.length_bits,
-            cordic: AngleCordic {
+            cordic: Cordic {
                 iterations: self.iterations,
                 vector_guard_bits: self.vector_guard_bits,
                 angle_guard_bits: self.angle_guard_bits,
@@ -176,6 +196,7 @@ pub(super) mod tests {
             Configuration { throughput: Throughput::CyclesPerPixel(4), pipeline_every: 2, ..word(12, 9) },
         ] {
             assert_eq!(Configuration::parse(&configuration.to_string()), Some(configuration));
+            assert_eq!(Configuration::of(&configuration.specification()), configuration);
         }
         for text in [
             "",

@@ -28,7 +28,7 @@ pub(super) struct Sweep {
     /// Specification (a preset or a TOML file) that gives every value which no option below gives
     #[arg(long, value_name = "FILE|PRESET", default_value = "vuris")]
     spec: String,
-    /// Bits of both signed input words; without it those of the specification's sums
+    /// Bits of both signed input words of a unit that gives the phase alone; without it the specification's own
     #[arg(long, value_name = "LIST")]
     word: Option<String>,
     /// The angle is that of (x, sqrt(METRIC) y); with --word only
@@ -142,7 +142,11 @@ impl Sweep {
             Some(text) => Grid::numbers(option, text),
             None => Ok(vec![otherwise]),
         };
-        let base = specification::configuration_of(pipeline);
+        let mut base = specification::configuration_of(pipeline);
+        if self.word.is_some() {
+            // Not a camera's sums: a unit by itself, which gives the phase alone.
+            base.length_bits = 0;
+        }
         let words = match &self.word {
             Some(text) => {
                 Grid::numbers("--word", text)?.into_iter().map(|bits| (bits, bits, self.metric)).collect()

@@ -24,6 +24,9 @@ pub struct Column {
     pub values: Values,
 }
 
+/// A kind of error: its name, and its value in turns.
+type Kind = (&'static str, fn(&Figures) -> f64);
+
 /// The units in which an error is given: suffix of the column, and how many of it are a turn.
 pub(super) fn units(phase_bits: u32, frequency_hz: f64) -> [(&'static str, f64); 4] {
     [
@@ -75,7 +78,7 @@ pub fn sweep_columns(points: &[Point], frequency_hz: f64) -> Vec<Column> {
         integers("vectors", &|_, row| row.figures.vectors as i64),
         integers("corners", &|_, row| row.figures.corners as i64),
     ];
-    let kinds: [(&str, fn(&Figures) -> f64); 4] = [
+    let kinds: [Kind; 4] = [
         ("max", |figures| figures.max_turns),
         ("rms", |figures| figures.rms_turns),
         ("mean", |figures| figures.mean_turns),
