@@ -199,9 +199,14 @@ module testbench;
         mismatches = mismatches + 1;
         $display("STUCK stimulus=%0d of %0d clock=%0d: the input was not taken", word, STIMULUS, clocks);
       end
-      if (mismatches == 0) $display("PASS values=%0d clocks=%0d", compared, clocks);
-      else $display("FAIL mismatches=%0d clocks=%0d", mismatches, clocks);
-      $finish;
+      if (mismatches == 0) begin
+        $display("PASS values=%0d clocks=%0d", compared, clocks);
+        $finish;
+      end else begin
+        // A stop, so that `vvp -N` and its like end with an exit code that is not 0.
+        $display("FAIL mismatches=%0d clocks=%0d", mismatches, clocks);
+        $stop;
+      end
     end
 
     // The source, after the checks. A beat stays offered until it is taken; an operation begins when the beat before it has been.

@@ -4,13 +4,14 @@ use super::print::{counted, say};
 use super::{agreement, golden_of_preset, progress};
 use crate::artifact::{self, Difference};
 use crate::hdl::{Source, all_artifacts};
+use crate::package::package_artifacts;
 use crate::problem::Result;
 use crate::spec::Pipeline;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Write Verilog, test benches, golden vectors and a file list from a specification
+/// Write Verilog, test benches, golden vectors, a package and an integration guide from a specification
 #[derive(Debug, Args)]
 pub(super) struct Generate {
     /// Specification: a preset (vuris, vuris-four-frame) or a TOML file
@@ -47,7 +48,8 @@ impl Generate {
         let spec = shown_spec(&self.spec);
         let source = Source { pipeline: &pipeline, spec: &spec };
         let golden = progress::during("running the model", || golden_of_preset(&pipeline))?;
-        let artifacts = all_artifacts(&source, &golden);
+        let mut artifacts = all_artifacts(&source, &golden);
+        artifacts.extend(package_artifacts(&source, &artifacts, &[]));
         if !self.check {
             artifact::write(&self.out, &artifacts)?;
             say!("{}: {} files of specification {}", self.out.display(), artifacts.len(), pipeline.name);
