@@ -117,14 +117,15 @@ module testbench;
 
   initial for (stage = 0; stage < STAGES; stage = stage + 1) record[stage] = 0;
 
-  task surplus(input integer at);
+  task automatic surplus(input integer at);
     begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) $display("SURPLUS stage=%0d record=%0d clock=%0d", at, record[at], clocks);
     end
   endtask
 
-  task report(input [8*32-1:0] name, input integer number, input [63:0] wanted, input [63:0] found);
+  task automatic report(input reg [8*32-1:0] name, input integer number, input reg [63:0] wanted,
+                        input reg [63:0] found);
     begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) begin
