@@ -54,15 +54,16 @@ pub fn numbers(pipeline: &Pipeline, made_by: &str) -> String {
             "quadrature": word(derived.quadrature),
             "offset_sum": word(derived.offset_sum),
             "phase": word(derived.phase),
-            "amplitude": word(derived.amplitude),
-            "offset": word(derived.offset),
-            "distance": word(derived.distance),
         },
+        "normalised": derived.angle.cordic.normalise,
         "memory": { "word_bits": derived.memory_word_bits, "bits": derived.memory_bits },
         "minimum_amplitude_codes": derived.minimum_amplitude,
         "timing": {
             "latency_clocks": derived.latency_clocks,
-            "clocks_per_result": timing.clocks_per_result,
+            "results_a_burst": timing.results_a_burst,
+            "clocks_a_burst": timing.clocks_a_burst,
+            "most_clocks_a_result": timing.most_clocks_a_result,
+            "most_shifts": timing.most_shifts,
             "silence_to_first_result_clocks": timing.silence_to_first_result,
             "next_frame_to_first_result_clocks": timing.next_frame_to_first_result,
         },
@@ -112,12 +113,15 @@ fn error(pipeline: &Pipeline) -> Value {
         .iter()
         .map(|part| (part.name.to_owned(), json!({ "codes": part.phase_codes, "why": part.why })))
         .collect();
-    json!({
+    let mut error = json!({
         "phase": { "codes": budget.phase_codes(), "rad": budget.phase_rad(), "parts": parts },
-        "amplitude": bound(budget.amplitude_relative),
         "offset": bound(budget.offset_relative),
         "distance": bound(budget.distance_relative),
-    })
+    });
+    if pipeline.output.amplitude {
+        error["amplitude"] = bound(budget.amplitude_relative);
+    }
+    error
 }
 
 #[cfg(test)]

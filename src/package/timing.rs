@@ -3,13 +3,20 @@
 //! `tb/cocotb` drives the core as the diagrams show, gaps included, and compares every output in every clock that they draw.
 
 use super::wave::{Diagram, Lane, Shown};
-use crate::spec::Pipeline;
+use crate::spec::{Architecture, Pipeline};
 
-/// Clocks at the ports, without pauses and back-pressure.
+/// Clocks at the ports, without pauses and back-pressure, of vectors that the angle unit need not shift; weaker ones take up to
+/// `most_shifts` clocks more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Timing {
-    /// From one result to the next.
-    pub clocks_per_result: u64,
+    /// Results that come one a clock before the next pause: the places of a folded unit's ring, else 1.
+    pub results_a_burst: u64,
+    /// From one burst's start to the next one's.
+    pub clocks_a_burst: u64,
+    /// From one result to the next, on average, where all vectors are as weak as can be.
+    pub most_clocks_a_result: u64,
+    /// What a set's first result can come later, where its vector is as weak as can be.
+    pub most_shifts: u64,
     /// From the clock in which a set's last sample is taken to the one in which its first result is offered, when the stream
     /// then stays silent: the sample's register 1, the longest pause and one clock beyond it, the set's end 1, the read of the sums
     /// 1, and the latency.
@@ -22,12 +29,30 @@ pub struct Timing {
 impl Timing {
     /// Those of `pipeline`.
     pub fn new(pipeline: &Pipeline) -> Self {
+        let angle = &pipeline.derived().angle;
         let latency = u64::from(pipeline.derived().latency_clocks);
+        let most_shifts = match angle.architecture {
+            Architecture::Iterative if angle.cordic.normalise => angle.magnitude_bits,
+            _ => 0,
+        };
+        let (results_a_burst, rounds) = match angle.architecture {
+            Architecture::Folded { stages, rounds } => (stages, rounds),
+            Architecture::Unrolled | Architecture::Iterative => (1, angle.clocks_a_vector(0)),
+        };
         Self {
-            clocks_per_result: 1,
+            results_a_burst: results_a_burst.into(),
+            clocks_a_burst: u64::from(results_a_burst) * u64::from(rounds),
+            most_clocks_a_result: angle.clocks_a_vector(most_shifts).into(),
+            most_shifts: most_shifts.into(),
             silence_to_first_result: 1 + u64::from(pipeline.sensor.line_blanking_clocks) + 1 + 2 + latency,
             next_frame_to_first_result: 1 + 2 + latency,
         }
+    }
+
+    /// Clocks from the first result to that of `pixel`.
+    fn result_at(&self, pixel: usize) -> u64 {
+        let pixel = pixel as u64;
+        pixel / self.results_a_burst * self.clocks_a_burst + pixel % self.results_a_burst
     }
 }
 
@@ -36,7 +61,7 @@ impl Timing {
 struct Clock {
     /// Number, among those of its set, of the sample that is offered.
     sample: Option<usize>,
-    /// The core takes it.
+    /// The core does not take it.
     waits: bool,
     /// Pixel whose result is offered.
     result: Option<usize>,
@@ -48,26 +73,41 @@ struct Clock {
 #[derive(Debug, Clone, Copy)]
 enum Column {
     Drawn(Clock),
-    /// So many clocks are left out: samples or results go on, one a clock, where they are offered before it, and else nothing happens.
+    /// So many clocks are left out: samples go on, one a clock, where one is offered before it.
     Gap(u64),
 }
 
-const IDLE: Column = Column::Drawn(Clock { sample: None, waits: false, result: None, stopped: false });
+const IDLE: Clock = Clock { sample: None, waits: false, result: None, stopped: false };
 
 fn sample(number: usize) -> Column {
-    Column::Drawn(Clock { sample: Some(number), ..Clock::default() })
+    Column::Drawn(Clock { sample: Some(number), ..IDLE })
 }
 
 fn waiting(number: usize) -> Column {
-    Column::Drawn(Clock { sample: Some(number), waits: true, ..Clock::default() })
+    Column::Drawn(Clock { sample: Some(number), waits: true, ..IDLE })
 }
 
-fn result(pixel: usize) -> Column {
-    Column::Drawn(Clock { result: Some(pixel), ..Clock::default() })
-}
-
-fn stopped(pixel: usize) -> Column {
-    Column::Drawn(Clock { result: Some(pixel), stopped: true, ..Clock::default() })
+/// The results of the first three of `pixels` pixels and, where it is wanted, the last one's, which the sink stops for a clock.
+fn results(timing: &Timing, pixels: usize, last: bool) -> Vec<Column> {
+    let mut columns = Vec::new();
+    let mut at = 0;
+    for pixel in [0, 1, 2].into_iter().chain(last.then_some(pixels - 1)) {
+        let clocks = timing.result_at(pixel) - at;
+        // A pause is drawn as one where it begins.
+        let pause = columns.is_empty() || timing.result_at(pixel.min(3)) > at;
+        match clocks {
+            0 => {}
+            1 if pause => columns.push(Column::Drawn(IDLE)),
+            _ if pause => columns.extend([Column::Drawn(IDLE), Column::Gap(clocks - 1)]),
+            _ => columns.push(Column::Gap(clocks)),
+        }
+        if pixel > 2 {
+            columns.push(Column::Drawn(Clock { result: Some(pixel), stopped: true, ..IDLE }));
+        }
+        columns.push(Column::Drawn(Clock { result: Some(pixel), ..IDLE }));
+        at = timing.result_at(pixel) + 1;
+    }
+    columns
 }
 
 /// The diagrams of `pipeline`: a set and its results, and a set that the next one follows at once.
@@ -79,39 +119,34 @@ fn whole_set(pipeline: &Pipeline) -> Diagram {
     let timing = Timing::new(pipeline);
     let pixels = pipeline.geometry().pixels();
     let samples = pixels * pipeline.derived().frames_per_set;
-    let (last, first_result) = (7, 10);
-    let columns = [
-        IDLE,
+    let mut columns = vec![
+        Column::Drawn(IDLE),
         sample(0),
         sample(1),
-        IDLE,
+        Column::Drawn(IDLE),
         sample(2),
         sample(3),
         Column::Gap((samples - 5) as u64),
         sample(samples - 1),
-        IDLE,
+        Column::Drawn(IDLE),
         Column::Gap(timing.silence_to_first_result - 2),
-        result(0),
-        stopped(1),
-        result(1),
-        result(2),
-        Column::Gap((pixels - 4) as u64),
-        result(pixels - 1),
-        IDLE,
     ];
+    let (last_sample, first_result) = (7, columns.len());
+    columns.extend(results(&timing, pixels, true));
+    columns.push(Column::Drawn(IDLE));
     let clocks = format!("{} clocks", timing.silence_to_first_result);
+    let frames = pipeline.derived().frames_per_set;
     let title = format!(
-        "A set of {} raw frames of {pixels} pixels; its results after a silence, with one stop by the sink",
-        pipeline.derived().frames_per_set
+        "A set of {frames} raw frames of {pixels} pixels; its results after a silence, the last one stopped"
     );
-    diagram(pipeline, "timing-set", title, &columns, (last, first_result, clocks))
+    diagram(pipeline, "timing-set", title, &columns, (last_sample, first_result, clocks))
 }
 
 fn next_set(pipeline: &Pipeline) -> Diagram {
     let timing = Timing::new(pipeline);
-    let samples = pipeline.geometry().pixels() * pipeline.derived().frames_per_set;
-    let (next, first_result) = (3, 11);
-    let columns = [
+    let pixels = pipeline.geometry().pixels();
+    let samples = pixels * pipeline.derived().frames_per_set;
+    let mut columns = vec![
         sample(samples - 3),
         sample(samples - 2),
         sample(samples - 1),
@@ -121,16 +156,13 @@ fn next_set(pipeline: &Pipeline) -> Diagram {
         waiting(2),
         waiting(2),
         sample(2),
-        sample(3),
-        IDLE,
-        Column::Gap(timing.next_frame_to_first_result - 7),
-        result(0),
-        result(1),
-        result(2),
+        Column::Drawn(IDLE),
+        Column::Gap(timing.next_frame_to_first_result - 6),
     ];
+    let (next, first_result) = (3, columns.len());
+    columns.extend(results(&timing, pixels, false));
     let clocks = format!("{} clocks", timing.next_frame_to_first_result);
-    let title =
-        "The next set follows at once: its first samples wait until the last set's drain is ahead".to_owned();
+    let title = "The next set follows at once: it waits until the last one's drain is ahead of it".to_owned();
     diagram(pipeline, "timing-next-set", title, &columns, (next, first_result, clocks))
 }
 

@@ -93,7 +93,8 @@ class Bench:
 
     async def rest(self):
         """Waits until everything that is due must have come out."""
-        quiet, due = 0, self.core.timing["silence_to_first_result_clocks"] + 32
+        timing = self.core.timing
+        quiet, due = 0, timing["silence_to_first_result_clocks"] + timing["most_shifts"] + timing["clocks_a_burst"] + 32
         while quiet < due:
             quiet = 0 if (await self.clock(None, self.ready())).m_valid else quiet + 1
 

@@ -21,6 +21,7 @@ class Truth:
     amplitude_dn: np.ndarray
     offset_dn: np.ndarray
     is_vector: np.ndarray
+    fills_word: np.ndarray
     saturated: np.ndarray
 
 
@@ -64,13 +65,15 @@ class Core:
         scheme = self.numbers["scheme"]
         weights = {name: np.repeat(scheme[name], self.repeats) for name in ("in_phase", "quadrature", "offset")}
         dn = np.minimum(codes, self.full_scale).astype(float)
-        x = weights["in_phase"] @ dn
-        y = np.sqrt(scheme["quadrature_factor_squared"]) * (weights["quadrature"] @ dn)
+        x, q = weights["in_phase"] @ dn, weights["quadrature"] @ dn
+        y = np.sqrt(scheme["quadrature_factor_squared"]) * q
+        magnitude_bits = max(self.numbers["words"][name]["bits"] for name in ("in_phase", "quadrature")) - 1
         return Truth(
             turns=np.arctan2(y, x) / (2 * np.pi) % 1,
             amplitude_dn=np.hypot(x, y) / (scheme["gain"] * self.repeats),
             offset_dn=weights["offset"] @ dn / (scheme["offset_gain"] * self.repeats),
             is_vector=(x != 0) | (y != 0),
+            fills_word=np.maximum(np.abs(x), np.abs(q)) >= 2 ** (magnitude_bits - 1),
             saturated=dn.max(axis=0) >= self.saturation_dn,
         )
 
@@ -81,17 +84,26 @@ class Core:
         dn = amplitude_dn * np.cos(2 * np.pi * (step - turns)) + offset_dn
         return np.clip(np.rint(dn), 0, self.full_scale).astype(np.int64)
 
+    def strongest(self):
+        """Codes, [raw frame, pixel], of the longest vector that there is, which need not be shifted up: its timing is the diagrams'."""
+        scheme, words = self.numbers["scheme"], self.numbers["words"]
+        name = max(("in_phase", "quadrature"), key=lambda name: words[name]["bits"])
+        weights = np.repeat(scheme[name], self.repeats)
+        sign = 1 if weights[weights > 0].sum() >= -weights[weights < 0].sum() else -1
+        codes = np.where(weights * sign > 0, self.full_scale, 0)
+        return np.repeat(codes[:, None], self.pixels, axis=1)
+
     def check(self, words, codes):
         """Compares one set's result words with its codes' truth; the largest phase error, in codes of the phase."""
         truth = self.truth(codes)
         assert not any(self.spare_bits(words)), "a bit that no field covers is set"
-        phase, amplitude, offset, distance = (
-            self.field(words, name) for name in ("phase", "amplitude", "offset", "distance")
-        )
+        phase = self.field(words, "phase")
         assert np.array_equal(self.field(words, "saturated"), truth.saturated), "saturation flags"
-        strong = amplitude >= self.numbers["minimum_amplitude_codes"]
-        assert np.array_equal(self.field(words, "usable"), truth.is_vector & strong), "usable flags"
-        for name in ("phase", "amplitude", "distance"):
+        usable = truth.is_vector
+        if "amplitude" in self.fields:
+            usable = usable & (self.field(words, "amplitude") >= self.numbers["minimum_amplitude_codes"])
+        assert np.array_equal(self.field(words, "usable"), usable), "usable flags"
+        for name in set(self.fields) - {"offset", "saturated"}:
             assert not self.field(words, name)[~truth.is_vector].any(), f"{name} without a vector"
 
         # Double precision is exact to far below a code; a part in 10^9 of one is left to it.
@@ -104,15 +116,18 @@ class Core:
                 f"{name} of pixel {worst} is off by {error[worst]} codes, {limit[worst]} at most"
             )
 
-        # The short way round, and nothing where there is no phase.
+        # The short way round, and nothing where there is no phase, or one of a weak vector that is not shifted up.
         error = ((phase * code["phase"] - truth.turns + 0.5) % 1 - 0.5) / code["phase"]
-        error[~truth.is_vector] = 0
+        exact = truth.is_vector if self.numbers["normalised"] else truth.fills_word
+        error[~exact] = 0
         within("phase", error, np.full(error.shape, self.error["phase"]["codes"]))
-        for name, found, exact in (
-            ("amplitude", amplitude, truth.amplitude_dn / code["amplitude"]),
-            ("offset", offset, truth.offset_dn / code["offset"]),
-            ("distance", distance, phase * code["phase"] * self.range_m / code["distance"]),
-        ):
+        expected = {
+            "offset": truth.offset_dn / code["offset"],
+            "distance": phase * code["phase"] * self.range_m / code["distance"],
+        }
+        if "amplitude" in self.fields:
+            expected["amplitude"] = np.where(exact, truth.amplitude_dn / code["amplitude"], self.field(words, "amplitude"))
+        for name, value in expected.items():
             bound = self.error[name]
-            within(name, found - exact, bound["codes"] + bound["relative"] * exact)
+            within(name, self.field(words, name) - value, bound["codes"] + bound["relative"] * value)
         return np.abs(error).max()

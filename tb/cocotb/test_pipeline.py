@@ -141,7 +141,7 @@ async def follow(dut, name):
     clocks = clocks_of(diagram)
     bench = Bench(dut, CORE, SEED, pause=0, stop=0)
     await bench.start()
-    codes = np.random.default_rng(SEED).integers(0, CORE.full_scale + 1, (CORE.frames, CORE.pixels))
+    codes = CORE.strongest()
     beats = beats_of(CORE, codes)
     # What comes before the first clock that is drawn.
     first = next(now["s_axis_tdata"] for drawn, now in clocks if drawn and now["s_axis_tdata"] is not None)
@@ -164,6 +164,24 @@ async def follow(dut, name):
         shown_results = len(bench.results)
     CORE.check([word for word, _, _ in bench.results], codes[:, : len(bench.results)])
     return diagram
+
+
+@cocotb.test()
+async def the_weakest_set_takes_no_longer_than_stated(dut):
+    """No vector at all, and the weakest: every clock that shifting them up can take."""
+    timing = CORE.timing
+    bench = Bench(dut, CORE, SEED, pause=0, stop=0)
+    await bench.start()
+    codes = np.zeros((CORE.frames, CORE.pixels), dtype=np.int64)
+    codes[0, ::2] = 1
+    await bench.send(beats_of(CORE, codes))
+    clocks = 0
+    while len(bench.results) < CORE.pixels:
+        await bench.clock(None, True)
+        clocks += 1
+        first = timing["silence_to_first_result_clocks"] + timing["most_shifts"]
+        assert clocks <= first + CORE.pixels * timing["most_clocks_a_result"], "slower than stated"
+    CORE.check([word for word, _, _ in bench.results], codes)
 
 
 @cocotb.test()
