@@ -262,7 +262,7 @@ pub fn bench_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
 }
 
 /// One value a line, in hexadecimal, as `$readmemh` reads it.
-fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
+pub(super) fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
     let digits = bits.div_ceil(4) as usize;
     let mut text = format!("// {note}\n");
     for value in values {

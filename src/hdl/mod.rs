@@ -10,7 +10,7 @@ mod polar;
 mod text;
 mod top;
 
-pub use angle::AngleSource;
+pub use angle::{AngleSource, angle_core_artifacts, angle_stimulus};
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
 pub use golden::{Golden, Rest, Scenario, Segment, StimulusWord};
 pub use top::{ResultField, result_bits, result_fields};

@@ -1,24 +1,20 @@
 //! The specification's TOML file: reading, checking and writing.
 
-use super::{
-    Cordic, Modulation, ONE_ITERATION_A_CLOCK, Output, PRESETS, Pipeline, Rounding, Sensor, Specification,
-    Throughput, Word, refused, scheme, scheme_names,
-};
+use super::angle::{read_cordic, write_cordic};
+use super::{Modulation, Output, Sensor, Specification, Word, refused, scheme, scheme_names};
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
 use std::path::Path;
 
 const FORMAT: &str = "vuris-pipeline/1";
 
-/// Reads the file at `path`.
-pub(super) fn read(path: &str) -> Result<Pipeline> {
-    let text = read_text(Path::new(path)).map_err(|error| {
-        let presets = PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
+/// The text of the file at `path`; `presets` are the names that would have done, too.
+pub(super) fn read(path: &str, presets: &str) -> Result<String> {
+    read_text(Path::new(path)).map_err(|error| {
         Problem::io(Path::new(path), "read the specification", &error)
             .expected(format_args!("a file, or one of the presets {presets}"))
             .remedy("`vuris explain --spec vuris --toml > my.toml` writes a file to start from")
-    })?;
-    Pipeline::parse(path, &text)
+    })
 }
 
 /// The text of a regular file of a plausible size: a device would be read for ever.
@@ -68,15 +64,6 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let cordic = top.section("cordic")?;
-    cordic.only(&[
-        "iterations",
-        "vector_guard_bits",
-        "angle_guard_bits",
-        "cycles_per_pixel",
-        "pipeline_every",
-        "normalise",
-        "rounding",
-    ])?;
     let cordic = read_cordic(&cordic)?;
 
     let output = top.section("output")?;
@@ -99,67 +86,23 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     Ok(Specification { name, sensor, modulation, cordic, output })
 }
 
-/// The table [cordic].
-fn read_cordic(fields: &Fields) -> Result<Cordic> {
-    let cycles = format!("a whole number from 1 to 64, or \"{ONE_ITERATION_A_CLOCK}\"");
-    let throughput = match fields.text("cycles_per_pixel", &cycles) {
-        Ok(ONE_ITERATION_A_CLOCK) => Throughput::OneIterationAClock,
-        _ if !fields.has("cycles_per_pixel") => Throughput::CyclesPerPixel(1),
-        _ => Throughput::CyclesPerPixel(
-            fields
-                .integer("cycles_per_pixel", 1..=64)
-                .map_err(|_| fields.refuse("cycles_per_pixel", &cycles))? as u32,
-        ),
-    };
-    let roundings = ROUNDINGS.map(|(name, _)| name).join(" or ");
-    let rounding = if fields.has("rounding") {
-        let name = fields.text("rounding", &roundings)?;
-        let known = ROUNDINGS.iter().find(|row| row.0 == name);
-        known.ok_or_else(|| fields.refuse("rounding", &roundings))?.1
+pub(super) const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
+
+/// Refuses a name that cannot begin the names of Verilog modules.
+pub(super) fn check_name(source: &str, name: &str) -> Result<()> {
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
+    if begins_well && name.chars().all(letter) && name.len() <= 32 {
+        Ok(())
     } else {
-        Rounding::Nearest
-    };
-    Ok(Cordic {
-        iterations: fields.integer("iterations", 4..=30)? as u32,
-        vector_guard_bits: fields.integer("vector_guard_bits", 0..=8)? as u32,
-        angle_guard_bits: fields.integer("angle_guard_bits", 1..=8)? as u32,
-        throughput,
-        pipeline_every: fields.integer_or("pipeline_every", 1..=30, 1)? as u32,
-        normalise: fields.flag_or("normalise", true)?,
-        rounding,
-    })
+        Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE))
+    }
 }
-
-/// The table [cordic] as text.
-fn write_cordic(cordic: &Cordic) -> String {
-    let throughput = match cordic.throughput {
-        Throughput::CyclesPerPixel(clocks) => clocks.to_string(),
-        Throughput::OneIterationAClock => format!("\"{ONE_ITERATION_A_CLOCK}\""),
-    };
-    let rounding = ROUNDINGS.iter().find(|row| row.1 == cordic.rounding).map_or("", |row| row.0);
-    format!(
-        "[cordic]\niterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\ncycles_per_pixel = {throughput}\n\
-         pipeline_every = {}\nnormalise = {}\nrounding = \"{rounding}\"\n",
-        cordic.iterations,
-        cordic.vector_guard_bits,
-        cordic.angle_guard_bits,
-        cordic.pipeline_every,
-        cordic.normalise,
-    )
-}
-
-const ROUNDINGS: [(&str, Rounding); 2] = [("nearest", Rounding::Nearest), ("truncate", Rounding::Truncate)];
-
-const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
 
 /// What only shows between fields, and what a specification made in code could get wrong.
 pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
     let Specification { name, sensor, .. } = specification;
-    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
-    if !begins_well || !name.chars().all(letter) || name.len() > 32 {
-        return Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE));
-    }
+    check_name(source, name)?;
     for (field, value, allowed) in
         [("sensor.width", sensor.width, 2..=4096), ("sensor.height", sensor.height, 1..=4096)]
     {

@@ -6,6 +6,7 @@
 mod angle;
 mod budget;
 mod derived;
+mod design;
 pub mod exact;
 mod file;
 mod presets;
@@ -13,13 +14,14 @@ mod scheme;
 mod word;
 
 pub use angle::{
-    AngleBudget, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic, ONE_ITERATION_A_CLOCK,
-    Rounding, StageWord, Stages, Throughput,
+    AngleBudget, AngleCore, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic,
+    ONE_ITERATION_A_CLOCK, Rounding, StageWord, Stages, Throughput,
 };
 pub use budget::{Contribution, ErrorBudget};
 pub use derived::Derived;
+pub use design::Design;
 pub use exact::ScaledConstant;
-pub use presets::{PRESETS, Preset};
+pub use presets::{ANGLE_PRESETS, PRESETS, Preset};
 pub use scheme::{Irrational, SCHEMES, Scheme, scheme, scheme_names};
 pub use word::Word;
 
@@ -113,7 +115,10 @@ impl Pipeline {
     pub fn named(name: &str) -> Result<Self> {
         match PRESETS.iter().find(|preset| preset.name == name) {
             Some(preset) => Self::parse(preset.name, preset.text),
-            None => file::read(name),
+            None => {
+                let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+                Self::parse(name, &file::read(name, &names.join(", "))?)
+            }
         }
     }
 

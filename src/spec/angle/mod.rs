@@ -2,11 +2,16 @@
 //! measured without a camera around it.
 
 mod budget;
+mod cordic_table;
+mod core;
 mod reach;
 mod stages;
 mod table;
 
 pub use budget::AngleBudget;
+pub(super) use cordic_table::{read_cordic, write_cordic};
+pub(super) use core::ANGLE_FORMAT;
+pub use core::AngleCore;
 pub use stages::{StageWord, Stages};
 pub use table::AngleGroup;
 
