@@ -54,4 +54,5 @@ pub mod recording;
 pub mod reference;
 pub mod report;
 pub mod spec;
+pub mod synthesis;
 pub mod units;

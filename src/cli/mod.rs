@@ -9,6 +9,7 @@ mod process;
 mod progress;
 mod scene;
 mod stimulus;
+mod synth;
 mod verify;
 
 pub use stimulus::{golden_of_preset, scene_sets};
@@ -35,6 +36,7 @@ enum Command {
     Explain(explain::Explain),
     Scene(scene::Scene),
     Demo(demo::Demo),
+    Synth(synth::Synth),
 }
 
 impl Arguments {
@@ -48,6 +50,7 @@ impl Arguments {
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
             Command::Demo(command) => command.run(),
+            Command::Synth(command) => command.run(),
         }
     }
 }

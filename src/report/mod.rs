@@ -6,7 +6,9 @@ mod explanation;
 mod pixel_image;
 mod scale;
 mod svg;
+mod synthesis;
 
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
 pub use explanation::explanation;
+pub use synthesis::{comparison_table, measured_table, synthesis};
