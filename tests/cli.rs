@@ -48,7 +48,7 @@ fn number_after(text: &str, before: &str) -> f64 {
 
 #[test]
 fn help_names_every_command_and_every_option() {
-    let commands: [(&str, &[&str]); 6] = [
+    let commands: [(&str, &[&str]); 7] = [
         ("generate", &["--spec <FILE|PRESET>", "--out <DIR>", "--check", "default: generated"]),
         (
             "verify",
@@ -76,6 +76,23 @@ fn help_names_every_command_and_every_option() {
         ("explain", &["--spec <FILE|PRESET>", "--toml", "vuris-four-frame"]),
         ("scene", &["--out <DIR>", "--seed <SEED>"]),
         ("demo", &["--out <DIR>", "--campaign <DIR>", "default: target/demo"]),
+        (
+            "synth",
+            &[
+                "--out <DIR>",
+                "--target <NAME>",
+                "--family <FAMILY>",
+                "ecp5",
+                "ice40",
+                "--seeds <N>",
+                "--jobs <N>",
+                "--accept",
+                "--check",
+                "--spec <FILE|PRESET>",
+                "--top <MODULE>",
+                "--clock <PORT>",
+            ],
+        ),
     ];
     let home = home();
     let overview = run(home.path(), &["--help"]);

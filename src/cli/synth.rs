@@ -7,7 +7,9 @@ use crate::artifact::{self, Artifact, Difference};
 use crate::problem::{Problem, Result};
 use crate::report;
 use crate::spec::Pipeline;
-use crate::synthesis::{Baseline, Change, Design, Family, Flow, Kind, LIMIT_PERCENT, Measured, Plan, Target, measure};
+use crate::synthesis::{
+    Baseline, Change, Design, Family, Flow, Kind, LIMIT_PERCENT, Measured, Plan, Target, measure,
+};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -105,7 +107,10 @@ impl Synth {
             return Ok(agreement(changes.is_empty()));
         }
         if !changes.is_empty() && !self.accept {
-            say!("{}: not written; `vuris synth --accept` takes the new areas for the baseline", self.out.display());
+            say!(
+                "{}: not written; `vuris synth --accept` takes the new areas for the baseline",
+                self.out.display()
+            );
             return Ok(agreement(false));
         }
         if let Some(old) = old.filter(|_| !self.accept) {

@@ -45,7 +45,8 @@ fn table<const COLUMNS: usize>(header: [&str; COLUMNS], rows: &[[String; COLUMNS
     table.load_style(presets::ASCII_MARKDOWN).set_content_arrangement(ContentArrangement::Disabled);
     table.set_header(header);
     table.add_rows(rows);
-    let is_number = |cell: &String| cell.is_empty() || cell.starts_with(|c: char| c.is_ascii_digit() || c == '-');
+    let is_number =
+        |cell: &String| cell.is_empty() || cell.starts_with(|c: char| c.is_ascii_digit() || c == '-');
     for (number, column) in table.column_iter_mut().enumerate() {
         if rows.iter().all(|row| is_number(&row[number])) {
             column.set_cell_alignment(CellAlignment::Right);
@@ -61,7 +62,10 @@ fn optional(number: Option<u32>) -> String {
 
 /// An error in 2^-16 turn.
 fn error(turn: Option<f64>) -> String {
-    turn.map_or_else(|| "-".to_owned(), |turn| if turn < 100.0 { format!("{turn:.3}") } else { format!("{turn:.0}") })
+    turn.map_or_else(
+        || "-".to_owned(),
+        |turn| if turn < 100.0 { format!("{turn:.3}") } else { format!("{turn:.0}") },
+    )
 }
 
 /// The rows of `targets`, one for each family.
@@ -108,7 +112,8 @@ pub fn comparison_table(targets: &[Measured]) -> String {
 fn own_row(target: &Measured) -> Option<[String; COMPARED.len()]> {
     let Kind::AngleCore { input_bits, phase_bits, amplitude } = target.kind else { return None };
     let on = |family: Family| target.results.iter().find(|result| result.family == family);
-    let number = |family: Family, of: &dyn Fn(&Mapped) -> String| on(family).map_or_else(|| "-".to_owned(), of);
+    let number =
+        |family: Family, of: &dyn Fn(&Mapped) -> String| on(family).map_or_else(|| "-".to_owned(), of);
     let luts = |result: &Mapped| result.area.luts.to_string();
     let fmax = |result: &Mapped| {
         result.speed.frequencies_mhz().map_or_else(|| "-".to_owned(), |(median, ..)| format!("{median:.1}"))
@@ -184,10 +189,18 @@ fn bias_table(targets: &[Measured]) -> String {
     for target in targets {
         for mean in target.accuracy.iter().flat_map(|accuracy| &accuracy.means) {
             let from = 1_u64 << mean.octave.min(63);
-            rows.push([target.name.clone(), format!("{from} to {}", 2 * u128::from(from)), format!("{:+.4}", mean.mean)]);
+            rows.push([
+                target.name.clone(),
+                format!("{from} to {}", 2 * u128::from(from)),
+                format!("{:+.4}", mean.mean),
+            ]);
         }
     }
-    if rows.is_empty() { String::new() } else { table(["core", "length, codes", "mean error, 2^-16 turn"], &rows) }
+    if rows.is_empty() {
+        String::new()
+    } else {
+        table(["core", "length, codes", "mean error, 2^-16 turn"], &rows)
+    }
 }
 
 /// The whole of `synthesis.md`.

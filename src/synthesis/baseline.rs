@@ -93,15 +93,14 @@ fn is_beyond_limit(old: u64, new: u64) -> bool {
     100 * u128::from(old.abs_diff(new)) > u128::from(LIMIT_PERCENT) * u128::from(old)
 }
 
-fn area_changes<'a>(
-    target: &'a str,
-    family: Family,
-    old: Area,
-    new: Area,
-) -> impl Iterator<Item = Change> + 'a {
-    old.resources().into_iter().zip(new.resources()).filter_map(move |((resource, old), (_, new))| {
-        is_beyond_limit(old, new).then(|| Change::Area { target: target.to_owned(), family, resource, old, new })
-    })
+fn area_changes(target: &str, family: Family, old: Area, new: Area) -> Vec<Change> {
+    let mut changes = Vec::new();
+    for ((resource, old), (_, new)) in old.resources().into_iter().zip(new.resources()) {
+        if is_beyond_limit(old, new) {
+            changes.push(Change::Area { target: target.to_owned(), family, resource, old, new });
+        }
+    }
+    changes
 }
 
 impl Baseline {
@@ -132,7 +131,9 @@ impl Baseline {
         let unreadable = |found: String| {
             Problem::in_file(path, found)
                 .expected(format_args!("a measurement of the format {FORMAT}"))
-                .remedy("restore the file from version control, or move it away to measure without a baseline")
+                .remedy(
+                    "restore the file from version control, or move it away to measure without a baseline",
+                )
         };
         let baseline: Self = serde_json::from_str(&text).map_err(|error| unreadable(error.to_string()))?;
         if baseline.format == FORMAT {

@@ -44,7 +44,9 @@ impl Design {
             plain.push(Artifact { path: name, text });
         }
         if !plain.iter().any(|file| file.path.ends_with(".v") || file.path.ends_with(".sv")) {
-            return Err(Problem::at(top, "comes without a Verilog file").expected("at least one .v or .sv file"));
+            return Err(
+                Problem::at(top, "comes without a Verilog file").expected("at least one .v or .sv file")
+            );
         }
         Ok(Self { top: top.to_owned(), clock: clock.to_owned(), files: plain })
     }
@@ -138,7 +140,8 @@ mod tests {
         }
         let twice = Design::new("a", "clk", vec![file("x/a.v", ""), file("y/a.v", "")]);
         assert!(twice.unwrap_err().to_string().contains("second file named a.v"));
-        let read = Design::new("a", "clk", vec![file("p.sv", ""), file("a.v", ""), file("t.hex", "")]).unwrap();
+        let read =
+            Design::new("a", "clk", vec![file("p.sv", ""), file("a.v", ""), file("t.hex", "")]).unwrap();
         assert_eq!(read.reading(), "read_verilog -sv p.sv; read_verilog a.v; ");
     }
 }

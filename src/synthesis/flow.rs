@@ -5,7 +5,7 @@ use super::cache::Cache;
 use super::design::Design;
 use super::family::Family;
 use super::routing::{Routed, Routing, does_not_fit};
-use super::tools::{Program, above};
+use super::tools::{Program, above, complaint};
 use super::wrapper::{Port, WRAPPER, ports, wrapper};
 use crate::artifact::{self, Artifact};
 use crate::problem::{Problem, Result};
@@ -117,8 +117,11 @@ impl Flow {
         let arguments = ["-q", "-p", script].map(str::to_owned);
         let (success, said) = self.yosys.run(folder, &arguments)?;
         if !success {
-            return Err(Problem::at(design.top(), format_args!("{} refuses it:\n{said}", self.yosys.version()))
-                .expected("Verilog that Yosys reads, and the files of all its modules"));
+            return Err(Problem::at(
+                design.top(),
+                format_args!("{} fails:\n{}", self.yosys.version(), complaint(&said)),
+            )
+            .expected("Verilog that Yosys reads, and the files of all its modules"));
         }
         let path = folder.join(result);
         std::fs::read_to_string(&path).map_err(|error| Problem::io(&path, "read", &error))
@@ -145,7 +148,7 @@ impl Placement<'_> {
                 return Routed::parse(&text, seed).map(Routing::Routed);
             }
             does_not_fit(&said).map(Routing::DoesNotFit).ok_or_else(|| {
-                Problem::at(nextpnr.version(), format_args!("fails with seed {seed}:\n{said}"))
+                Problem::at(nextpnr.version(), format_args!("fails with seed {seed}:\n{}", complaint(&said)))
                     .expected("a netlist that it can place and route")
             })
         };
@@ -170,7 +173,10 @@ pub fn command_lines(family: Family) -> [String; 3] {
     let command = family.synthesis_command();
     [
         format!("read_verilog ...; {command} -top TOP; stat"),
-        format!("read_verilog ... {WRAPPER}.v; {command} -top {WRAPPER}; {}write_json {NETLIST}", family.before_placement()),
+        format!(
+            "read_verilog ... {WRAPPER}.v; {command} -top {WRAPPER}; {}write_json {NETLIST}",
+            family.before_placement()
+        ),
         options(family, 1).join(" ").replace("--seed 1", "--seed SEED").replace(&report(1), "REPORT"),
     ]
 }
@@ -190,7 +196,8 @@ fn cache_folder() -> Result<PathBuf> {
     if let Some(tools) = above(".tools/hdl") {
         return Ok(tools.with_file_name("synthesis-cache"));
     }
-    let folder = |variable: &str| std::env::var_os(variable).map(PathBuf::from).filter(|path| path.is_absolute());
+    let folder =
+        |variable: &str| std::env::var_os(variable).map(PathBuf::from).filter(|path| path.is_absolute());
     folder("XDG_CACHE_HOME")
         .or_else(|| Some(folder("HOME")?.join(".cache")))
         .map(|cache| cache.join("vuris/synthesis"))

