@@ -10,6 +10,7 @@ mod progress;
 mod scene;
 mod stimulus;
 mod sweep;
+mod synth;
 mod verify;
 
 pub use stimulus::{golden_of_preset, scene_sets};
@@ -37,6 +38,7 @@ enum Command {
     Scene(scene::Scene),
     Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
+    Synth(synth::Synth),
 }
 
 impl Arguments {
@@ -51,6 +53,7 @@ impl Arguments {
             Command::Scene(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
+            Command::Synth(command) => command.run(),
         }
     }
 }

@@ -102,7 +102,7 @@ impl Verilator {
 }
 
 /// Runs `command`; its output, standard error after standard output, and whether it succeeded.
-pub(super) fn output(command: &mut Command) -> Result<(bool, String)> {
+pub fn output(command: &mut Command) -> Result<(bool, String)> {
     let program = command.get_program().to_string_lossy().into_owned();
     let output = command
         .stdin(std::process::Stdio::null())
