@@ -118,6 +118,14 @@ impl<'a> Fields<'a> {
         if self.table.contains_key(field) { self.number(field, allowed, unit) } else { Ok(default) }
     }
 
+    /// `true` or `false`, or `default` where the field is absent.
+    pub fn flag_or(&self, field: &str, default: bool) -> Result<bool> {
+        match self.table.get(field) {
+            None => Ok(default),
+            Some(value) => value.as_bool().ok_or_else(|| self.refuse(field, "true or false")),
+        }
+    }
+
     /// A list of finite numbers.
     pub fn numbers(&self, field: &str, expected: &str) -> Result<Vec<f64>> {
         self.table

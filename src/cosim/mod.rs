@@ -1,11 +1,13 @@
 //! Building and running the simulators, and comparing stage by stage.
 
+mod accesses;
 mod finding;
 mod lint;
 mod run;
 mod scenario;
 mod tools;
 
+pub use accesses::register_accesses;
 pub use finding::Finding;
 pub use lint::lint;
 pub use run::{Outcome, Simulation, Simulator, Traffic, simulate};

@@ -8,12 +8,14 @@ mod cordic;
 mod golden;
 mod meta;
 mod polar;
+mod registers;
+mod sequencer;
 mod text;
 mod top;
 mod vector;
 
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
-pub use golden::{Golden, Rest, Scenario, Segment, StimulusWord};
+pub use golden::{Epoch, Golden, GoldenAccess, Rest, Scenario, Segment, StimulusWord};
 pub use top::{ResultField, result_bits, result_fields};
 
 use crate::artifact::Artifact;
@@ -50,6 +52,11 @@ pub const MODULES: &[Module] = &[
         purpose: "Which pixel of which phase step a beat is, and whether its set can be trusted.",
         render: control::framing,
     },
+    Module {
+        noun: "sequencer",
+        purpose: "The order of the phase steps, and which of them the next raw frame must have.",
+        render: sequencer::sequencer,
+    },
     Module { noun: "sum_memory", purpose: "The sums of all pixels.", render: control::sum_memory },
     Module {
         noun: "accumulator",
@@ -73,13 +80,26 @@ pub const MODULES: &[Module] = &[
     },
     Module { noun: "offset", purpose: "The offset of a pixel.", render: polar::offset },
     Module { noun: "distance", purpose: "The distance of a phase.", render: polar::distance },
+    Module {
+        noun: "registers",
+        purpose: "Registers for a processor, over AXI4-Lite.",
+        render: registers::registers,
+    },
 ];
+
+impl Module {
+    /// Whether the core of `pipeline` has it.
+    pub fn is_in(&self, pipeline: &Pipeline) -> bool {
+        self.noun != "registers" || pipeline.registers.axi4_lite
+    }
+}
 
 /// The Verilog files, the top module last, and the file list.
 pub fn rtl_artifacts(source: &Source) -> Vec<Artifact> {
     let prefix = source.pipeline.prefix();
     let mut artifacts: Vec<Artifact> = MODULES
         .iter()
+        .filter(|module| module.is_in(source.pipeline))
         .map(|module| {
             let text = (module.render)(source, text::banner(source, module.purpose));
             Artifact::new(format!("rtl/{prefix}_{}.v", module.noun), text::finished(text))
@@ -110,6 +130,7 @@ fn specification_artifact(source: &Source) -> Artifact {
 pub fn all_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let mut artifacts = rtl_artifacts(source);
     artifacts.push(specification_artifact(source));
+    artifacts.extend(registers::map_artifacts(source));
     artifacts.extend(bench_artifacts(source, golden));
     artifacts.extend(vector_artifacts(source, golden));
     artifacts

@@ -12,7 +12,9 @@ mod normaliser;
 mod offset;
 mod phase;
 mod pipeline;
+mod registers;
 mod scaling;
+mod sequencer;
 mod stream;
 
 pub use accumulator::{Accumulator, Sums};
@@ -24,5 +26,7 @@ pub use normaliser::{Normalised, Octant, normalise};
 pub use offset::offset;
 pub use phase::phase;
 pub use pipeline::{PipelineModel, PixelRecord, pixel};
+pub use registers::{Access, Answer, ReadData, Registers};
 pub use scaling::{Vector, scale};
+pub use sequencer::{NextFrame, next_frame};
 pub use stream::{Beat, StreamEvent, beats_of_set};

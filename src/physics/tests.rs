@@ -14,6 +14,7 @@ fn acquisition(name: &str) -> Acquisition {
     Acquisition {
         scheme: scheme(name).unwrap(),
         frames_per_step: 1,
+        order: (0..scheme(name).unwrap().steps()).collect(),
         frequency_hz: FREQUENCY_HZ,
         frame_period_s: 0.025,
         sets: 1,
@@ -36,7 +37,8 @@ fn measured(frames: &RawSets, acquisition: &Acquisition) -> Vec<(f64, f64)> {
     (0..frames.geometry().pixels())
         .map(|pixel| {
             let sum: Complex64 = (0..frames.frames_per_set())
-                .map(|n| coefficients[n / acquisition.frames_per_step] * f64::from(frames.frame(0, n)[pixel]))
+                .map(|n| (acquisition.order[n / acquisition.frames_per_step], n))
+                .map(|(step, n)| coefficients[step] * f64::from(frames.frame(0, n)[pixel]))
                 .sum();
             let gain = (acquisition.scheme.gain * acquisition.frames_per_step as i64) as f64;
             (sum.arg(), sum.norm() / gain)

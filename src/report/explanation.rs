@@ -1,7 +1,7 @@
 //! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
 
 use crate::hdl::{result_bits, result_fields};
-use crate::spec::{Irrational, Pipeline, Word, exact};
+use crate::spec::{Irrational, Pipeline, REGISTER_BYTES, REGISTERS, Word, exact};
 use crate::units::unambiguous_range_m;
 use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
@@ -36,8 +36,14 @@ fn word(word: Word) -> String {
 
 /// The tables of `pipeline`.
 pub fn explanation(pipeline: &Pipeline) -> String {
-    let sections =
-        [input(pipeline), accumulator(pipeline), vector(pipeline), output(pipeline), errors(pipeline)];
+    let sections = [
+        input(pipeline),
+        accumulator(pipeline),
+        vector(pipeline),
+        output(pipeline),
+        registers(pipeline),
+        errors(pipeline),
+    ];
     let mut text = format!(
         "{}: scheme {}, {}\n",
         pipeline.name, pipeline.modulation.scheme.name, pipeline.modulation.scheme.reference
@@ -69,6 +75,19 @@ fn input(pipeline: &Pipeline) -> Section {
             scheme.step_turns.1,
             pipeline.modulation.frames_per_step
         ),
+    );
+    let modulation = &pipeline.modulation;
+    let order = modulation.steps_in_order();
+    section.row(
+        "order of the steps",
+        format!("{order:?}"),
+        "place by place; the sequencer tells the modulation hardware, and each frame gets its step's weights",
+    );
+    let phases: Vec<i64> = (0..scheme.steps()).map(|step| modulation.step_phase_code(step)).collect();
+    section.row(
+        "phase of each step",
+        format!("{phases:?}"),
+        format!("turns / 2^{}, rounded to nearest, whole turns left out", modulation.phase_step_bits),
     );
     section.row("saturated from", format!("{} DN", sensor.saturation_dn), "saturation_dn, or full scale");
     section.row(
@@ -226,6 +245,25 @@ fn output(pipeline: &Pipeline) -> Section {
         format!("{} codes", derived.minimum_amplitude),
         "a weaker pixel is not usable; nor is one without a vector",
     );
+    section
+}
+
+fn registers(pipeline: &Pipeline) -> Section {
+    let mut section = Section::new("registers");
+    section.row(
+        "specification hash",
+        format!("0x{:016x}", pipeline.hash()),
+        "first 64 bits of the SHA-256 of what `vuris explain --toml` prints of this specification",
+    );
+    if !pipeline.registers.axi4_lite {
+        section.row("AXI4-Lite port", "none", "registers.axi4_lite = false");
+        return section;
+    }
+    for (number, register) in REGISTERS.iter().enumerate() {
+        let address = number as u32 * REGISTER_BYTES;
+        let access = if register.writable() { "read and write" } else { "read" };
+        section.row(register.name, format!("0x{address:02x}, {access}"), register.meaning);
+    }
     section
 }
 

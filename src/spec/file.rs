@@ -1,7 +1,9 @@
 //! The specification's TOML file: reading, checking and writing.
 
+use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Cordic, Modulation, Output, PRESETS, Pipeline, Sensor, Specification, Word, refused, scheme, scheme_names,
+    Cordic, Modulation, Output, PRESETS, Pipeline, RegisterBlock, Sensor, Specification, Word,
+    normalised_order, refused, scheme, scheme_names, sequence,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -37,7 +39,7 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     let table = fields::parse(source, text)?;
     let top = Fields::top(source, &table);
-    top.only(&["format", "name", "sensor", "modulation", "cordic", "output"])?;
+    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers"])?;
     let expected_format = format!("\"{FORMAT}\"");
     if top.text("format", &expected_format)? != FORMAT {
         return Err(top.refuse("format", &expected_format));
@@ -57,13 +59,16 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let modulation = top.section("modulation")?;
-    modulation.only(&["scheme", "frequency_hz", "frames_per_step"])?;
+    modulation.only(&["scheme", "frequency_hz", "frames_per_step", "order", "phase_step_bits"])?;
     let one_of = format!("one of {}", scheme_names());
     let modulation = Modulation {
         scheme: scheme(modulation.text("scheme", &one_of)?)
             .ok_or_else(|| modulation.refuse("scheme", &one_of))?,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
+        order: order(&modulation)?,
+        phase_step_bits: modulation.integer_or("phase_step_bits", 2..=24, DEFAULT_PHASE_STEP_BITS.into())?
+            as u32,
     };
 
     let cordic = top.section("cordic")?;
@@ -89,7 +94,33 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
         minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
     };
-    Ok(Specification { name, sensor, modulation, cordic, output })
+    Ok(Specification { name, sensor, modulation, cordic, output, registers: registers(&top)? })
+}
+
+/// The order of the phase steps, where there is one; [`check`] sees whether it is the scheme's.
+fn order(modulation: &Fields) -> Result<Option<Vec<usize>>> {
+    if !modulation.has("order") {
+        return Ok(None);
+    }
+    let expected = "a list of the scheme's phase steps, whole numbers from 0 on, such as [0, 3, 1, 4, 2]";
+    let numbers = modulation.numbers("order", expected)?;
+    let whole = numbers.iter().all(|number| number.fract() == 0.0 && (0.0..65_536.0).contains(number));
+    if !whole || numbers.is_empty() {
+        return Err(modulation.refuse("order", expected));
+    }
+    Ok(normalised_order(numbers.into_iter().map(|number| number as usize).collect()))
+}
+
+/// The register block: none where the section is absent.
+fn registers(top: &Fields) -> Result<RegisterBlock> {
+    let Some(registers) = top.optional_section("registers")? else {
+        return Ok(RegisterBlock::default());
+    };
+    registers.only(&["axi4_lite", "frequency_factor"])?;
+    Ok(RegisterBlock {
+        axi4_lite: registers.flag_or("axi4_lite", true)?,
+        frequency_factor: registers.integer_or("frequency_factor", 0..=u32::MAX.into(), 0)? as u32,
+    })
 }
 
 const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
@@ -133,12 +164,12 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
         return Err(refused(source, "modulation.frames_per_step", specification.modulation.frames_per_step)
             .expected("1 to 256"));
     }
-    Ok(())
+    sequence::check(source, specification)
 }
 
 /// The text of a file that reads as `specification`.
 pub(super) fn write(specification: &Specification) -> String {
-    let Specification { name, sensor, modulation, cordic, output } = specification;
+    let Specification { name, sensor, modulation, cordic, output, registers } = specification;
     format!(
         "format = \"{FORMAT}\"\n\
          name = \"{name}\"\n\
@@ -146,11 +177,14 @@ pub(super) fn write(specification: &Specification) -> String {
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
          scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
+         order = {:?}\nphase_step_bits = {}\n\
          \n[cordic]\n\
          iterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\n\
          \n[output]\n\
          phase_bits = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
-         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n",
+         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
+         \n[registers]\n\
+         axi4_lite = {}\nfrequency_factor = {}\n",
         sensor.width,
         sensor.height,
         sensor.adc_bits,
@@ -159,6 +193,8 @@ pub(super) fn write(specification: &Specification) -> String {
         modulation.scheme.name,
         modulation.frequency_hz,
         modulation.frames_per_step,
+        modulation.steps_in_order(),
+        modulation.phase_step_bits,
         cordic.iterations,
         cordic.vector_guard_bits,
         cordic.angle_guard_bits,
@@ -167,5 +203,7 @@ pub(super) fn write(specification: &Specification) -> String {
         output.offset_fraction_bits,
         output.distance_unit_m,
         output.minimum_amplitude_dn,
+        registers.axi4_lite,
+        registers.frequency_factor,
     )
 }

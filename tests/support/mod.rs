@@ -10,7 +10,9 @@ use std::sync::Mutex;
 use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
-use vuris::spec::{Cordic, Modulation, Output, Pipeline, SCHEMES, Sensor, Specification};
+use vuris::spec::{
+    Cordic, Modulation, Output, Pipeline, RegisterBlock, SCHEMES, Sensor, Specification, normalised_order,
+};
 use vuris::units::unambiguous_range_m;
 
 /// `preset` with a sensor of 12 x 9 pixels, and then as `change` says.
@@ -57,6 +59,15 @@ pub fn everything(pipeline: &Pipeline, seed: u64) -> Scenario {
     scenario
 }
 
+/// The numbers below `steps` in an order that `seed` gives; ascending for every fourth.
+pub fn shuffled(steps: usize, seed: u64) -> Option<Vec<usize>> {
+    let mut order: Vec<usize> = (0..steps).collect();
+    if !seed.is_multiple_of(4) {
+        order.sort_by_key(|&step| (seed ^ (step as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    }
+    normalised_order(order)
+}
+
 /// Specifications of every kind that the program accepts: all its fields, with small sensors and few frames.
 pub fn specifications() -> impl Strategy<Value = Specification> {
     let sensor = (2..=8_usize, 1..=6_usize, 8..=16_u32, 0.0..1.5_f64, 16..=100_u32).prop_map(
@@ -72,14 +83,21 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
         },
     );
     let modulation =
-        (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize).prop_map(|(scheme, decade, frames_per_step)| {
-            Modulation { scheme: &SCHEMES[scheme], frequency_hz: 10_f64.powf(decade), frames_per_step }
+        (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize, any::<u64>(), 2..=24_u32).prop_map(|row| {
+            let (scheme, decade, frames_per_step, order, phase_step_bits) = row;
+            let scheme = &SCHEMES[scheme];
+            let order = shuffled(scheme.steps(), order);
+            let frequency_hz = 10_f64.powf(decade);
+            Modulation { scheme, frequency_hz, frames_per_step, order, phase_step_bits }
         });
+    let registers = (any::<bool>(), any::<u32>())
+        .prop_map(|(axi4_lite, frequency_factor)| RegisterBlock { axi4_lite, frequency_factor });
     let cordic = (4..=30_u32, 0..=8_u32, 1..=8_u32);
     // Bits of the distance, and the least amplitude as a part of the full scale (or none).
     let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64);
-    (sensor, modulation, cordic, output)
-        .prop_map(|(sensor, modulation, (iterations, vector_guard_bits, angle_guard_bits), output)| {
+    (sensor, modulation, cordic, output, registers)
+        .prop_map(|(sensor, modulation, cordic, output, registers)| {
+            let (iterations, vector_guard_bits, angle_guard_bits) = cordic;
             let (phase_bits, amplitude_fraction_bits, offset_fraction_bits, distance_bits, weakest) = output;
             let range_m = unambiguous_range_m(modulation.frequency_hz);
             let full_scale_dn = f64::from(sensor.adc_bits).exp2();
@@ -99,6 +117,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
                     minimum_amplitude_dn: weakest.max(0.0) * full_scale_dn,
                 },
                 modulation,
+                registers,
             }
         })
         .prop_filter("it is accepted", |specification| Pipeline::new("any", specification.clone()).is_ok())
