@@ -197,6 +197,23 @@ fn a_pixel_that_changes_objects_within_a_set_or_sees_nothing_has_no_true_range()
     assert_eq!(run(&Scene { objects: Vec::new() }, "four_frame"), 160 * 120);
 }
 
+/// A scene that stands still, without noise: each place's frame is that of its step.
+#[test]
+fn frames_are_taken_in_the_order_of_their_steps() {
+    let sensor = Sensor { geometry: Geometry { width: 8, height: 6 }, ..Sensor::vuris() };
+    let scene = Scene::wall(3.0);
+    let ascending = acquisition("wdft");
+    let order = vec![3, 1, 4, 0, 2];
+    let permuted = Acquisition { order: order.clone(), ..ascending.clone() };
+    let take =
+        |acquisition| simulate(&scene, &Correlation::sinusoidal(), &sensor, acquisition, None).unwrap().0;
+    let (frames, reordered) = (take(&ascending), take(&permuted));
+    for (place, &step) in order.iter().enumerate() {
+        assert_eq!(reordered.frame(0, place), frames.frame(0, step), "place {place}");
+    }
+    assert_ne!(frames.frame(0, 1), frames.frame(0, 2));
+}
+
 #[test]
 fn what_cannot_be_simulated_is_refused() {
     let none = Acquisition { frames_per_step: 0, ..acquisition("wdft") };

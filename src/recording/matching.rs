@@ -51,7 +51,7 @@ pub fn pipeline_for(
         sensor.saturation_dn = sensor.saturation_dn.min(Word::unsigned(sensor.adc_bits).max());
         modulation.scheme = scheme;
         modulation.frames_per_step = frames_per_step;
-        modulation.order = normalised_order(order);
+        modulation.order = normalised_order(scheme, order);
         modulation.frequency_hz = recording.frequency_hz;
     })?;
     let sentences = differences(recording, base, &pipeline);

@@ -2,7 +2,7 @@
 
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Cordic, Modulation, Output, PRESETS, Pipeline, RegisterBlock, Sensor, Specification, Word,
+    Cordic, Modulation, Output, PRESETS, Pipeline, RegisterBlock, Scheme, Sensor, Specification, Word,
     normalised_order, refused, scheme, scheme_names, sequence,
 };
 use crate::fields::{self, Fields};
@@ -61,12 +61,13 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     let modulation = top.section("modulation")?;
     modulation.only(&["scheme", "frequency_hz", "frames_per_step", "order", "phase_step_bits"])?;
     let one_of = format!("one of {}", scheme_names());
+    let scheme =
+        scheme(modulation.text("scheme", &one_of)?).ok_or_else(|| modulation.refuse("scheme", &one_of))?;
     let modulation = Modulation {
-        scheme: scheme(modulation.text("scheme", &one_of)?)
-            .ok_or_else(|| modulation.refuse("scheme", &one_of))?,
+        scheme,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
-        order: order(&modulation)?,
+        order: order(&modulation, scheme)?,
         phase_step_bits: modulation.integer_or("phase_step_bits", 2..=24, DEFAULT_PHASE_STEP_BITS.into())?
             as u32,
     };
@@ -98,7 +99,7 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
 }
 
 /// The order of the phase steps, where there is one; [`check`] sees whether it is the scheme's.
-fn order(modulation: &Fields) -> Result<Option<Vec<usize>>> {
+fn order(modulation: &Fields, scheme: &Scheme) -> Result<Option<Vec<usize>>> {
     if !modulation.has("order") {
         return Ok(None);
     }
@@ -108,7 +109,7 @@ fn order(modulation: &Fields) -> Result<Option<Vec<usize>>> {
     if !whole || numbers.is_empty() {
         return Err(modulation.refuse("order", expected));
     }
-    Ok(normalised_order(numbers.into_iter().map(|number| number as usize).collect()))
+    Ok(normalised_order(scheme, numbers.into_iter().map(|number| number as usize).collect()))
 }
 
 /// The register block: none where the section is absent.

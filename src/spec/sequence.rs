@@ -1,6 +1,6 @@
 //! The order in which the phase steps of a set are taken, and each step's phase in the word that the modulation hardware gets.
 
-use super::{Modulation, Specification, refused};
+use super::{Modulation, Scheme, Specification, refused};
 use crate::problem::Result;
 
 /// Bits that a phase step's phase may have.
@@ -33,9 +33,9 @@ impl Modulation {
     }
 }
 
-/// `order` as a specification keeps it: `None` where it is ascending.
-pub fn normalised_order(order: Vec<usize>) -> Option<Vec<usize>> {
-    let ascending = order.iter().enumerate().all(|(place, &step)| place == step);
+/// `order` as a specification of `scheme` keeps it: `None` where it is the ascending order of all its steps.
+pub fn normalised_order(scheme: &Scheme, order: Vec<usize>) -> Option<Vec<usize>> {
+    let ascending = order.iter().copied().eq(0..scheme.steps());
     (!ascending).then_some(order)
 }
 
@@ -87,8 +87,11 @@ mod tests {
 
     #[test]
     fn an_order_is_kept_only_where_it_is_not_ascending() {
-        assert_eq!(normalised_order(vec![0, 1, 2]), None);
-        assert_eq!(normalised_order(vec![0, 2, 1]), Some(vec![0, 2, 1]));
+        let wdft = modulation("vuris", 16).scheme;
+        assert_eq!(normalised_order(wdft, vec![0, 1, 2, 3, 4]), None);
+        for order in [vec![0, 2, 1, 3, 4], vec![0, 1, 2], vec![0, 1, 2, 3, 4, 5], vec![]] {
+            assert_eq!(normalised_order(wdft, order.clone()), Some(order));
+        }
         let permuted = Modulation { order: Some(vec![0, 3, 1, 4, 2]), ..modulation("vuris", 16) };
         assert_eq!((0..5).map(|place| permuted.step_at(place)).collect::<Vec<_>>(), [0, 3, 1, 4, 2]);
         assert_eq!(modulation("vuris", 16).steps_in_order(), [0, 1, 2, 3, 4]);

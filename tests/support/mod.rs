@@ -11,7 +11,8 @@ use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
 use vuris::spec::{
-    Cordic, Modulation, Output, Pipeline, RegisterBlock, SCHEMES, Sensor, Specification, normalised_order,
+    Cordic, Modulation, Output, Pipeline, RegisterBlock, SCHEMES, Scheme, Sensor, Specification,
+    normalised_order,
 };
 use vuris::units::unambiguous_range_m;
 
@@ -59,13 +60,13 @@ pub fn everything(pipeline: &Pipeline, seed: u64) -> Scenario {
     scenario
 }
 
-/// The numbers below `steps` in an order that `seed` gives; ascending for every fourth.
-pub fn shuffled(steps: usize, seed: u64) -> Option<Vec<usize>> {
-    let mut order: Vec<usize> = (0..steps).collect();
+/// The steps of `scheme` in an order that `seed` gives; ascending for every fourth.
+pub fn shuffled(scheme: &Scheme, seed: u64) -> Option<Vec<usize>> {
+    let mut order: Vec<usize> = (0..scheme.steps()).collect();
     if !seed.is_multiple_of(4) {
         order.sort_by_key(|&step| (seed ^ (step as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     }
-    normalised_order(order)
+    normalised_order(scheme, order)
 }
 
 /// Specifications of every kind that the program accepts: all its fields, with small sensors and few frames.
@@ -86,7 +87,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
         (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize, any::<u64>(), 2..=24_u32).prop_map(|row| {
             let (scheme, decade, frames_per_step, order, phase_step_bits) = row;
             let scheme = &SCHEMES[scheme];
-            let order = shuffled(scheme.steps(), order);
+            let order = shuffled(scheme, order);
             let frequency_hz = 10_f64.powf(decade);
             Modulation { scheme, frequency_hz, frames_per_step, order, phase_step_bits }
         });
