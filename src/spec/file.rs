@@ -2,8 +2,8 @@
 
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Cordic, Modulation, Output, PRESETS, Pipeline, RegisterBlock, Scheme, Sensor, Specification, Word,
-    normalised_order, refused, scheme, scheme_names, sequence,
+    Cordic, Modulation, ONE_ITERATION_A_CLOCK, Output, PRESETS, Pipeline, RegisterBlock, Rounding, Scheme,
+    Sensor, Specification, Throughput, Word, normalised_order, refused, scheme, scheme_names, sequence,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -73,16 +73,21 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let cordic = top.section("cordic")?;
-    cordic.only(&["iterations", "vector_guard_bits", "angle_guard_bits"])?;
-    let cordic = Cordic {
-        iterations: cordic.integer("iterations", 4..=30)? as u32,
-        vector_guard_bits: cordic.integer("vector_guard_bits", 0..=8)? as u32,
-        angle_guard_bits: cordic.integer("angle_guard_bits", 1..=8)? as u32,
-    };
+    cordic.only(&[
+        "iterations",
+        "vector_guard_bits",
+        "angle_guard_bits",
+        "cycles_per_pixel",
+        "pipeline_every",
+        "normalise",
+        "rounding",
+    ])?;
+    let cordic = read_cordic(&cordic)?;
 
     let output = top.section("output")?;
     output.only(&[
         "phase_bits",
+        "amplitude",
         "amplitude_fraction_bits",
         "offset_fraction_bits",
         "distance_unit_m",
@@ -90,6 +95,7 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     ])?;
     let output = Output {
         phase_bits: output.integer("phase_bits", 8..=24)? as u32,
+        amplitude: output.flag_or("amplitude", true)?,
         amplitude_fraction_bits: output.integer("amplitude_fraction_bits", 0..=8)? as u32,
         offset_fraction_bits: output.integer("offset_fraction_bits", 0..=8)? as u32,
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
@@ -123,6 +129,57 @@ fn registers(top: &Fields) -> Result<RegisterBlock> {
         frequency_factor: registers.integer_or("frequency_factor", 0..=u32::MAX.into(), 0)? as u32,
     })
 }
+
+/// The table [cordic].
+fn read_cordic(fields: &Fields) -> Result<Cordic> {
+    let cycles = format!("a whole number from 1 to 64, or \"{ONE_ITERATION_A_CLOCK}\"");
+    let throughput = match fields.text("cycles_per_pixel", &cycles) {
+        Ok(ONE_ITERATION_A_CLOCK) => Throughput::OneIterationAClock,
+        _ if !fields.has("cycles_per_pixel") => Throughput::CyclesPerPixel(1),
+        _ => Throughput::CyclesPerPixel(
+            fields
+                .integer("cycles_per_pixel", 1..=64)
+                .map_err(|_| fields.refuse("cycles_per_pixel", &cycles))? as u32,
+        ),
+    };
+    let roundings = ROUNDINGS.map(|(name, _)| name).join(" or ");
+    let rounding = if fields.has("rounding") {
+        let name = fields.text("rounding", &roundings)?;
+        let known = ROUNDINGS.iter().find(|row| row.0 == name);
+        known.ok_or_else(|| fields.refuse("rounding", &roundings))?.1
+    } else {
+        Rounding::Nearest
+    };
+    Ok(Cordic {
+        iterations: fields.integer("iterations", 4..=30)? as u32,
+        vector_guard_bits: fields.integer("vector_guard_bits", 0..=8)? as u32,
+        angle_guard_bits: fields.integer("angle_guard_bits", 1..=8)? as u32,
+        throughput,
+        pipeline_every: fields.integer_or("pipeline_every", 1..=30, 1)? as u32,
+        normalise: fields.flag_or("normalise", true)?,
+        rounding,
+    })
+}
+
+/// The table [cordic] as text.
+fn write_cordic(cordic: &Cordic) -> String {
+    let throughput = match cordic.throughput {
+        Throughput::CyclesPerPixel(clocks) => clocks.to_string(),
+        Throughput::OneIterationAClock => format!("\"{ONE_ITERATION_A_CLOCK}\""),
+    };
+    let rounding = ROUNDINGS.iter().find(|row| row.1 == cordic.rounding).map_or("", |row| row.0);
+    format!(
+        "[cordic]\niterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\ncycles_per_pixel = {throughput}\n\
+         pipeline_every = {}\nnormalise = {}\nrounding = \"{rounding}\"\n",
+        cordic.iterations,
+        cordic.vector_guard_bits,
+        cordic.angle_guard_bits,
+        cordic.pipeline_every,
+        cordic.normalise,
+    )
+}
+
+const ROUNDINGS: [(&str, Rounding); 2] = [("nearest", Rounding::Nearest), ("truncate", Rounding::Truncate)];
 
 const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
 
@@ -179,10 +236,8 @@ pub(super) fn write(specification: &Specification) -> String {
          \n[modulation]\n\
          scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
          order = {:?}\nphase_step_bits = {}\n\
-         \n[cordic]\n\
-         iterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\n\
-         \n[output]\n\
-         phase_bits = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
+         \n{}\n[output]\n\
+         phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
          distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
          \n[registers]\n\
          axi4_lite = {}\nfrequency_factor = {}\n",
@@ -196,10 +251,9 @@ pub(super) fn write(specification: &Specification) -> String {
         modulation.frames_per_step,
         modulation.steps_in_order(),
         modulation.phase_step_bits,
-        cordic.iterations,
-        cordic.vector_guard_bits,
-        cordic.angle_guard_bits,
+        write_cordic(cordic),
         output.phase_bits,
+        output.amplitude,
         output.amplitude_fraction_bits,
         output.offset_fraction_bits,
         output.distance_unit_m,

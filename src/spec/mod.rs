@@ -3,6 +3,7 @@
 //! A [`Pipeline`] is a specification that has been checked, with every number that follows from it
 //! ([`Derived`]). It can only be made by [`Pipeline::new`], so one that exists can be built.
 
+mod angle;
 mod budget;
 mod derived;
 pub mod exact;
@@ -13,8 +14,12 @@ mod scheme;
 mod sequence;
 mod word;
 
+pub use angle::{
+    AngleBudget, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic, ONE_ITERATION_A_CLOCK,
+    Rounding, StageWord, Stages, Throughput,
+};
 pub use budget::{Contribution, ErrorBudget};
-pub use derived::{Derived, Normaliser};
+pub use derived::Derived;
 pub use exact::ScaledConstant;
 pub use presets::{PRESETS, Preset};
 pub use registers::{
@@ -59,22 +64,13 @@ pub struct Modulation {
     pub phase_step_bits: u32,
 }
 
-/// The CORDIC.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Cordic {
-    /// Iterations, 4 to 30, by the angles atan(2^−1) … atan(2^−iterations).
-    pub iterations: u32,
-    /// Bits of x and y below the phase's resolution, 0 to 8.
-    pub vector_guard_bits: u32,
-    /// Bits of the angle below the phase's resolution, 1 to 8.
-    pub angle_guard_bits: u32,
-}
-
 /// The output words.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
     /// Phase, as a fraction of a turn, 8 to 24 bits.
     pub phase_bits: u32,
+    /// Whether the amplitude is wanted; without it the hardware is smaller.
+    pub amplitude: bool,
     /// Bits of the amplitude below 1 DN, 0 to 8.
     pub amplitude_fraction_bits: u32,
     /// Bits of the offset below 1 DN, 0 to 8.

@@ -12,6 +12,7 @@ pub struct Preset {
 /// All presets.
 pub const PRESETS: &[Preset] = &[
     Preset { name: "vuris", text: include_str!("presets/vuris.toml") },
+    Preset { name: "vuris-fast", text: include_str!("presets/vuris-fast.toml") },
     Preset { name: "vuris-four-frame", text: include_str!("presets/vuris-four-frame.toml") },
 ];
 
