@@ -12,6 +12,7 @@ mod normaliser;
 mod offset;
 mod phase;
 mod pipeline;
+mod poly;
 mod scaling;
 mod stream;
 
@@ -24,5 +25,6 @@ pub use normaliser::{Normalised, Octant, normalise};
 pub use offset::offset;
 pub use phase::phase;
 pub use pipeline::{PipelineModel, PixelRecord, pixel};
+pub use poly::{Angle, poly};
 pub use scaling::{Vector, scale};
 pub use stream::{Beat, StreamEvent, beats_of_set};

@@ -6,12 +6,12 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 /// A binary floating-point number of [`PRECISION_BITS`] bits.
-type Real = FBig<HalfEven, 2>;
+pub(super) type Real = FBig<HalfEven, 2>;
 
 /// Far more than the 63 bits of the widest register: rounding to an integer is then the only rounding that counts.
-const PRECISION_BITS: usize = 192;
+pub(super) const PRECISION_BITS: usize = 192;
 
-fn integer(value: i64) -> Real {
+pub(super) fn integer(value: i64) -> Real {
     Real::from(value).with_precision(PRECISION_BITS).value()
 }
 
@@ -20,12 +20,12 @@ fn of_f64(value: f64) -> Real {
     Real::try_from(value).expect("callers pass finite numbers").with_precision(PRECISION_BITS).value()
 }
 
-fn power_of_two(exponent: i64) -> Real {
+pub(super) fn power_of_two(exponent: i64) -> Real {
     Real::from_parts(1.into(), exponent as isize).with_precision(PRECISION_BITS).value()
 }
 
 /// Nearest integer (ties away from zero, which no constant here meets).
-fn rounded(value: &Real) -> i64 {
+pub(super) fn rounded(value: &Real) -> i64 {
     i64::try_from(value.round().to_int().value()).expect("constants are bounded by their words")
 }
 
