@@ -8,12 +8,15 @@ mod cordic;
 mod golden;
 mod meta;
 mod polar;
+mod poly;
+mod rom;
 mod text;
 mod top;
 mod vector;
 
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
 pub use golden::{Golden, Rest, Scenario, Segment, StimulusWord};
+pub use poly::poly_artifacts;
 pub use top::{ResultField, result_bits, result_fields};
 
 use crate::artifact::Artifact;
@@ -126,7 +129,8 @@ mod tests {
         let templates = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/hdl-templates")).unwrap();
         for template in templates {
             let noun = template.unwrap().file_name().to_string_lossy().trim_end_matches(".v").to_owned();
-            let known = MODULES.iter().any(|module| module.noun == noun);
+            let known =
+                MODULES.iter().any(|module| module.noun == noun) || poly::NOUNS.contains(&noun.as_str());
             assert!(
                 known || ["banner", "pipeline"].contains(&noun.as_str()),
                 "no module for template {noun}"

@@ -13,7 +13,12 @@ struct Banner<'a> {
 
 /// The first lines of a generated file.
 pub(super) fn banner(source: &Source, purpose: &str) -> String {
-    let banner = Banner { purpose, spec: source.spec };
+    banner_of(source.spec, purpose)
+}
+
+/// The first lines of a file generated from what `--spec` was given.
+pub(super) fn banner_of(spec: &str, purpose: &str) -> String {
+    let banner = Banner { purpose, spec };
     finished(banner.render()).trim_end().to_owned()
 }
 

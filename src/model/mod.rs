@@ -25,6 +25,6 @@ pub use normaliser::{Normalised, Octant, normalise};
 pub use offset::offset;
 pub use phase::phase;
 pub use pipeline::{PipelineModel, PixelRecord, pixel};
-pub use poly::{Angle, poly};
+pub use poly::{Angle, poly, poly_arctangent, poly_reciprocal};
 pub use scaling::{Vector, scale};
 pub use stream::{Beat, StreamEvent, beats_of_set};

@@ -36,11 +36,12 @@ pub fn poly(unit: &Poly, x: i64, y: i64) -> Angle {
         None => value >> (unit.word_bits - unit.coordinate_bits),
     };
     let (larger, smaller) = (fit(larger, major < 0), fit(smaller, minor < 0));
-    let ratio = ratio(unit, larger, smaller);
+    let product = smaller * poly_reciprocal(unit, larger);
+    let ratio = product >> (unit.coordinate_bits - 1 + unit.reciprocal.result_bits - unit.ratio_bits);
 
     // minor and major of one sign turn counterclockwise from the major axis, unless they are swapped.
     let backwards = (x < 0) ^ (y < 0) ^ swapped;
-    let angle = arctangent(unit, ratio, backwards);
+    let angle = poly_arctangent(unit, ratio, backwards);
     let axis = match (swapped, x < 0, y < 0) {
         (false, false, _) => 0,
         (true, _, false) => 1,
@@ -57,21 +58,18 @@ const fn shifted(value: i64, places: u32, negative: bool) -> i64 {
     (value << places) | if negative { (1 << places) - 1 } else { 0 }
 }
 
-/// `minor` over `major`, rounded down, below 1.0.
-fn ratio(unit: &Poly, major: i64, minor: i64) -> i64 {
-    let reciprocal = &unit.reciprocal;
+/// The scaled reciprocal of a normalised `major`, rounded down, below 1.0.
+pub fn poly_reciprocal(unit: &Poly, major: i64) -> i64 {
+    let table = &unit.reciprocal;
     let one = unit.coordinate_bits - 1;
-    let low_bits = one - reciprocal.index_bits;
-    let index = (major >> low_bits) & ((1 << reciprocal.index_bits) - 1);
+    let low_bits = one - table.index_bits;
+    let index = (major >> low_bits) & ((1 << table.index_bits) - 1);
     let mirrored = major ^ ((1 << low_bits) - 1);
-    let product = mirrored * reciprocal.factors[index as usize];
-    let reciprocal =
-        (product >> (one + reciprocal.factor_bits - reciprocal.result_bits), reciprocal.result_bits);
-    (minor * reciprocal.0) >> (one + reciprocal.1 - unit.ratio_bits)
+    (mirrored * table.factors[index as usize]) >> (one + table.factor_bits - table.result_bits)
 }
 
 /// The angle of `ratio` in phase codes, 0 to an eighth of a turn; one less where it is to be complemented.
-fn arctangent(unit: &Poly, ratio: i64, backwards: bool) -> i64 {
+pub fn poly_arctangent(unit: &Poly, ratio: i64, backwards: bool) -> i64 {
     let table = &unit.arctangent;
     let segment = (ratio >> table.offset_bits) as usize;
     let half = 1 << (table.offset_bits - 1);

@@ -92,7 +92,7 @@ impl Arctangent {
     pub(super) fn new(phase_bits: u32, ratio_bits: u32, scale_bits: u32, tables: Tables) -> Self {
         let guard_bits = 4;
         let (segment_bits, curve_segment_bits, curve_offset_bits) = match tables {
-            Tables::Logic => ((phase_bits - 5) / 2, 2.min((phase_bits - 5) / 2), 3),
+            Tables::Logic => (2.max((phase_bits - 5) / 2), 2, 3),
             Tables::Memory => (8.min(phase_bits - 5), 0, 0),
         };
         let one = power_of_two(scale_bits.into());
