@@ -1,16 +1,12 @@
 //! Template contexts of the angle by tables and multipliers.
 
+use super::AngleSource;
 use super::rom::Rom;
-use super::text::{banner_of, finished, range, table};
+use super::text::{banner, finished, range, table};
 use crate::artifact::Artifact;
 use crate::model;
 use crate::spec::{MULTIPLIER_CLOCKS, Poly, Tables, Word};
 use askama::Template;
-
-/// The templates of this unit, in the order in which the data meets them.
-#[cfg(test)]
-pub(super) const NOUNS: [&str; 5] =
-    ["poly_multiplier", "poly_octant", "poly_reciprocal", "poly_arctangent", "poly"];
 
 /// Widest operand of an ECP5's multiplier.
 const ECP5_OPERAND_BITS: u32 = 18;
@@ -90,8 +86,8 @@ struct Arctangent<'a> {
 }
 
 #[derive(Template)]
-#[template(path = "poly.v", escape = "none")]
-struct Core<'a> {
+#[template(path = "angle_poly.v", escape = "none")]
+struct Angle<'a> {
     banner: String,
     prefix: &'a str,
     bound: String,
@@ -102,6 +98,8 @@ struct Core<'a> {
     coordinate_bits: u32,
     result_bits: u32,
     ratio_bits: u32,
+    shift_bits: u32,
+    meta_bits: u32,
     latency_clocks: u32,
     octant_clocks: u32,
     reciprocal_clocks: u32,
@@ -112,35 +110,27 @@ struct Core<'a> {
 /// Clocks of a table and a multiplier.
 const TABLE_CLOCKS: u32 = 1 + MULTIPLIER_CLOCKS;
 
-/// The unit's Verilog, the module `<prefix>_poly` last, and for an ECP5 a multiplier that takes the place of the portable
-/// one.
-pub fn poly_artifacts(unit: &Poly, prefix: &str, spec: &str) -> Vec<Artifact> {
-    let file =
-        |folder: &str, noun: &str, purpose: &str, render: &dyn Fn(String) -> askama::Result<String>| {
-            let text = finished(render(banner_of(spec, purpose)));
-            Artifact::new(format!("{folder}/{prefix}_{noun}.v"), text)
-        };
-    let multiplier = |primitive| move |banner| Multiplier { banner, prefix, primitive }.render();
-    let mut artifacts = vec![
-        file("rtl", "poly_multiplier", "A multiplier with its registers.", &multiplier(false)),
-        file("rtl", "poly_octant", "Octant fold and leading-zero shift.", &|banner| {
-            octant(unit, prefix, banner)
-        }),
-        file("rtl", "poly_reciprocal", "The reciprocal of the larger coordinate.", &|banner| {
-            reciprocal(unit, prefix, banner)
-        }),
-        file("rtl", "poly_arctangent", "The arctangent of a ratio.", &|banner| {
-            arctangent(unit, prefix, banner)
-        }),
-        file("rtl", "poly", "The angle by tables and multipliers.", &|banner| core(unit, prefix, banner)),
-    ];
-    if unit.coordinate_bits <= ECP5_OPERAND_BITS {
-        artifacts.push(file("ecp5", "poly_multiplier", "A multiplier of the ECP5.", &multiplier(true)));
-    }
-    artifacts
+/// The Poly of a unit that is one; the module table asks for no other.
+fn poly<'a>(source: &AngleSource<'a>) -> askama::Result<&'a Poly> {
+    source.unit.poly.as_ref().ok_or(askama::Error::ValueMissing)
 }
 
-fn octant(unit: &Poly, prefix: &str, banner: String) -> askama::Result<String> {
+pub(super) fn multiplier(source: &AngleSource, banner: String) -> askama::Result<String> {
+    Multiplier { banner, prefix: source.prefix, primitive: false }.render()
+}
+
+/// For an ECP5, a multiplier that can take the place of the portable one.
+pub(super) fn ecp5_artifact(source: &AngleSource, spec: &str) -> Option<Artifact> {
+    let prefix = source.prefix;
+    source.unit.poly.as_ref().filter(|unit| unit.coordinate_bits <= ECP5_OPERAND_BITS).map(|_| {
+        let banner = banner(spec, "A multiplier of the ECP5, instead of the portable one.");
+        let text = finished(Multiplier { banner, prefix, primitive: true }.render());
+        Artifact::new(format!("ecp5/{prefix}_poly_multiplier.v"), text)
+    })
+}
+
+pub(super) fn octant(source: &AngleSource, banner: String) -> askama::Result<String> {
+    let (unit, prefix) = (poly(source)?, source.prefix);
     let last = unit.shifts.len();
     let extended = |name: &str, bits: u32| match unit.word_bits - bits {
         0 => name.to_owned(),
@@ -174,7 +164,8 @@ fn octant(unit: &Poly, prefix: &str, banner: String) -> askama::Result<String> {
     .render()
 }
 
-fn reciprocal(unit: &Poly, prefix: &str, banner: String) -> askama::Result<String> {
+pub(super) fn reciprocal(source: &AngleSource, banner: String) -> askama::Result<String> {
+    let (unit, prefix) = (poly(source)?, source.prefix);
     let shape = &unit.reciprocal;
     let one = 1_i64 << (unit.coordinate_bits - 1);
     let rows = [one, one * 3 / 2, 2 * one - 1]
@@ -207,7 +198,8 @@ fn patterns(values: &[i64], bits: u32) -> Vec<u64> {
     values.iter().map(|&value| Word::unsigned(bits).pattern(value)).collect()
 }
 
-fn arctangent(unit: &Poly, prefix: &str, banner: String) -> askama::Result<String> {
+pub(super) fn arctangent(source: &AngleSource, banner: String) -> askama::Result<String> {
+    let (unit, prefix) = (poly(source)?, source.prefix);
     let shape = &unit.arctangent;
     let angle_bits = unit.phase_bits - 1;
     let word_bits = angle_bits + shape.guard_bits;
@@ -287,7 +279,8 @@ fn lines(unit: &Poly, word_bits: u32) -> String {
     )
 }
 
-fn core(unit: &Poly, prefix: &str, banner: String) -> askama::Result<String> {
+pub(super) fn angle(source: &AngleSource, banner: String) -> askama::Result<String> {
+    let (unit, prefix) = (poly(source)?, source.prefix);
     let (x, y) = (Word::signed(unit.x_bits), Word::signed(unit.y_bits));
     let rows = [(1, 0), (0, 0), (x.min(), y.min()), (x.max(), -1)].map(|(x, y)| {
         let angle = model::poly(unit, x, y);
@@ -295,7 +288,7 @@ fn core(unit: &Poly, prefix: &str, banner: String) -> askama::Result<String> {
     });
     let shifts = unit.shifts.len() as u32;
     let arctangent_clocks = TABLE_CLOCKS + 1;
-    Core {
+    Angle {
         banner,
         prefix,
         bound: format!("{:.3}", unit.phase_codes() + 5e-4),
@@ -306,6 +299,8 @@ fn core(unit: &Poly, prefix: &str, banner: String) -> askama::Result<String> {
         coordinate_bits: unit.coordinate_bits,
         result_bits: unit.reciprocal.result_bits,
         ratio_bits: unit.ratio_bits,
+        shift_bits: source.unit.shift_bits(),
+        meta_bits: source.meta_bits,
         latency_clocks: unit.latency_clocks,
         octant_clocks: shifts + TABLE_CLOCKS + MULTIPLIER_CLOCKS,
         reciprocal_clocks: TABLE_CLOCKS,

@@ -1,23 +1,15 @@
 //! The angle of a vector by tables and multipliers: see [`spec::Poly`](crate::spec::Poly).
 
+use super::Turned;
 use crate::spec::Poly;
-
-/// The angle of a vector.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Angle {
-    /// A fraction of a turn, in units of 2^−phase bits; 0 where there is no vector.
-    pub phase: i64,
-    /// There is no vector: both coordinates are 0.
-    pub zero: bool,
-}
 
 /// Magnitude without negation: 2v for v, and 2v − 1 for −v.
 const fn folded(value: i64) -> i64 {
     ((value ^ (value >> 63)) << 1) | (value < 0) as i64
 }
 
-/// The angle of (`x`, `y`), each within its word.
-pub fn poly(unit: &Poly, x: i64, y: i64) -> Angle {
+/// The phase of (`x`, `y`), each within its word; no length.
+pub fn poly(unit: &Poly, x: i64, y: i64) -> Turned {
     // The sign of |x| − |y| by one addition; −1 − y stands for −y, which is right but for the equal ones, and those have
     // the same angle either way.
     let sum = x + if (x < 0) == (y < 0) { -1 - y } else { y };
@@ -50,7 +42,7 @@ pub fn poly(unit: &Poly, x: i64, y: i64) -> Angle {
     };
     let turned = if backwards { !angle } else { angle };
     let phase = ((axis << (unit.phase_bits - 2)) + turned) & ((1 << unit.phase_bits) - 1);
-    Angle { phase: if zero { 0 } else { phase }, zero }
+    Turned { phase: if zero { 0 } else { phase }, length: 0, shift: 0, zero }
 }
 
 /// `value` shifted left by `places`; what comes in below is the sign.

@@ -26,12 +26,25 @@ pub enum Tables {
     Memory,
 }
 
+impl Tables {
+    /// Both kinds.
+    pub const ALL: [Self; 2] = [Self::Logic, Self::Memory];
+
+    /// What a specification calls it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Logic => "logic",
+            Self::Memory => "memory",
+        }
+    }
+}
+
 /// What the unit is to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PolySpecification {
-    /// Bits of x, signed, 2 to 32.
+    /// Bits of x, signed, 2 to 40.
     pub x_bits: u32,
-    /// Bits of y, signed, 2 to 32.
+    /// Bits of y, signed, 2 to 40.
     pub y_bits: u32,
     /// Bits of the phase, a fraction of a turn, 8 to 20; up to 16 every product fits one 18 × 18 multiplier.
     pub phase_bits: u32,
@@ -76,19 +89,19 @@ impl Poly {
     /// Checks `specification` and derives everything; `source` is the name that a refusal gives.
     pub fn new(source: &str, specification: PolySpecification) -> Result<Self> {
         let PolySpecification { x_bits, y_bits, phase_bits, tables } = specification;
-        for (field, bits) in [("x_bits", x_bits), ("y_bits", y_bits)] {
-            if !(2..=32).contains(&bits) {
-                return Err(refused(source, field, bits).expected("a whole number from 2 to 32"));
+        for (field, bits) in [("vector.x_bits", x_bits), ("vector.y_bits", y_bits)] {
+            if !(2..=40).contains(&bits) {
+                return Err(refused(source, field, bits).expected("a whole number from 2 to 40"));
             }
         }
         if !(8..=20).contains(&phase_bits) {
-            return Err(refused(source, "phase_bits", phase_bits)
+            return Err(refused(source, "output.phase_bits", phase_bits)
                 .expected("a whole number from 8 to 20 for atan = \"poly\"")
                 .remedy("choose atan = \"cordic\", which has no such limit"));
         }
         let word_bits = x_bits.max(y_bits);
         let shifts: Vec<u32> =
-            (0..5).rev().map(|stage| 1 << stage).filter(|&places| places < word_bits).collect();
+            (0..6).rev().map(|stage| 1 << stage).filter(|&places| places < word_bits).collect();
         let coordinate_bits = phase_bits + 2;
         let reciprocal = Reciprocal::new(phase_bits, coordinate_bits, tables);
         let ratio_bits = phase_bits + 1;
@@ -137,10 +150,10 @@ mod tests {
     fn a_word_or_phase_out_of_range_is_refused() {
         let good = PolySpecification { x_bits: 16, y_bits: 16, phase_bits: 16, tables: Tables::Logic };
         for (bad, field) in [
-            (PolySpecification { x_bits: 1, ..good }, "x_bits = 1"),
-            (PolySpecification { y_bits: 33, ..good }, "y_bits = 33"),
-            (PolySpecification { phase_bits: 7, ..good }, "phase_bits = 7"),
-            (PolySpecification { phase_bits: 21, ..good }, "phase_bits = 21"),
+            (PolySpecification { x_bits: 1, ..good }, "vector.x_bits = 1"),
+            (PolySpecification { y_bits: 41, ..good }, "vector.y_bits = 41"),
+            (PolySpecification { phase_bits: 7, ..good }, "output.phase_bits = 7"),
+            (PolySpecification { phase_bits: 21, ..good }, "output.phase_bits = 21"),
         ] {
             assert_eq!(Poly::new("test", bad).unwrap_err().found(), field);
         }

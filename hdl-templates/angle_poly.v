@@ -8,33 +8,39 @@
 //   [[ row ]]
 [%- endfor %]
 `default_nettype none
-module [[ prefix ]]_poly #(
+module [[ prefix ]]_angle #(
   parameter X_BITS          = [[ x_bits ]],  // x, signed
   parameter Y_BITS          = [[ y_bits ]],  // y, signed
   parameter PHASE_BITS      = [[ phase_bits ]],  // the phase, a fraction of a turn
   parameter COORDINATE_BITS = [[ coordinate_bits ]],  // a normalised coordinate, one integer bit
   parameter RESULT_BITS     = [[ result_bits ]],  // the reciprocal
   parameter RATIO_BITS      = [[ ratio_bits ]],  // the ratio, below 1
-  parameter META_BITS       = 1    // what travels along
+  parameter LENGTH_BITS     = 1,  // no length
+  parameter SHIFT_BITS      = [[ shift_bits ]],  // nor its shift
+  parameter META_BITS       = [[ meta_bits ]]   // what travels along
 ) (
-  input  wire                  clk_i,    // clock
-  input  wire                  rst_ni,   // synchronous reset, active low
-  input  wire                  valid_i,  // there is a vector
-  output wire                  ready_o,  // it is taken
-  input  wire [X_BITS-1:0]     x_i,      // x of the vector
-  input  wire [Y_BITS-1:0]     y_i,      // y of the vector
-  input  wire [META_BITS-1:0]  meta_i,   // travels along
-  output wire                  valid_o,  // there is a phase
-  input  wire                  ready_i,  // it is taken
-  output wire [PHASE_BITS-1:0] phase_o,  // the phase; 0 where there is no vector
-  output wire                  zero_o,   // there is no vector: both coordinates are 0
-  output wire [META_BITS-1:0]  meta_o    // meta_i, [[ latency_clocks ]] moves later
+  input  wire                     clk_i,     // clock
+  input  wire                     rst_ni,    // synchronous reset, active low
+  input  wire                     valid_i,   // a vector is offered
+  output wire                     ready_o,   // it is taken
+  input  wire signed [X_BITS-1:0] x_i,       // x of the vector
+  input  wire signed [Y_BITS-1:0] y_i,       // y of the vector
+  input  wire [META_BITS-1:0]     meta_i,    // travels along
+  output wire                     valid_o,   // a phase is offered
+  input  wire                     ready_i,   // it is taken
+  output wire [PHASE_BITS-1:0]    phase_o,   // phase
+  output wire                     zero_o,    // there is no vector: both coordinates are 0
+  output wire [LENGTH_BITS-1:0]   length_o,  // 0
+  output wire [SHIFT_BITS-1:0]    shift_o,   // 0
+  output wire [META_BITS-1:0]     meta_o     // meta_i, [[ latency_clocks ]] moves later
 );
 
   localparam LATENCY_CLOCKS = [[ latency_clocks ]];
 
   wire advance = !valid_o || ready_i;
-  assign ready_o = advance;
+  assign ready_o  = advance;
+  assign length_o = {LENGTH_BITS{1'b0}};
+  assign shift_o  = {SHIFT_BITS{1'b0}};
 
   // What travels along.
   reg [LATENCY_CLOCKS-1:0]           valid_q;
