@@ -85,7 +85,7 @@ fn read_atan(top: &Fields, phase_bits: u32) -> Result<(Atan, Cordic)> {
         _ => return Err(top.refuse("atan", algorithms)),
     };
     if top.has(other) {
-        return Err(top.refuse(other, &format!("no such table where atan = \"{own}\"")));
+        return Err(top.refuse(other, format!("no such table where atan = \"{own}\"")));
     }
     let section = top.section(own)?;
     if own == "cordic" {
