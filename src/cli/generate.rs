@@ -4,13 +4,14 @@ use super::print::{counted, say};
 use super::{agreement, golden_of_preset, progress};
 use crate::artifact::{self, Difference};
 use crate::hdl::{Source, all_artifacts, angle_core_artifacts, angle_stimulus};
+use crate::package::package_artifacts;
 use crate::problem::Result;
 use crate::spec::Design;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Write Verilog, test benches, golden vectors and a file list from a specification
+/// Write Verilog, test benches, golden vectors, a package and an integration guide from a specification
 #[derive(Debug, Args)]
 pub(super) struct Generate {
     /// Specification: a preset (vuris, vuris-fast, vuris-four-frame, angle-16, angle-16-folded, angle-16-iterative, angle-16-poly, angle-16-poly-memory) or a TOML file
@@ -51,7 +52,9 @@ impl Generate {
             Design::Pipeline(pipeline) => {
                 let source = Source { pipeline: &pipeline, spec: &spec };
                 let golden = progress::during("running the model", || golden_of_preset(&pipeline))?;
-                (pipeline.name.clone(), all_artifacts(&source, &golden))
+                let mut artifacts = all_artifacts(&source, &golden);
+                artifacts.extend(package_artifacts(&source, &artifacts, &[]));
+                (pipeline.name.clone(), artifacts)
             }
             Design::Angle(core) => {
                 let vectors = angle_stimulus(&core.unit, ANGLE_SEED);

@@ -7,9 +7,12 @@ use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
 
 /// A table of quantity, value and reason.
-struct Section {
-    title: &'static str,
-    rows: Vec<[String; 3]>,
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Section {
+    /// What it is about.
+    pub title: &'static str,
+    /// Quantity, value and reason of each row.
+    pub rows: Vec<[String; 3]>,
 }
 
 impl Section {
@@ -34,15 +37,18 @@ fn word(word: Word) -> String {
     format!("{} bits {}", word.bits, if word.signed { "signed" } else { "unsigned" })
 }
 
-/// The tables of `pipeline`.
+/// The tables of `pipeline`, in the order in which the data meets what they are about.
+pub fn sections(pipeline: &Pipeline) -> Vec<Section> {
+    vec![input(pipeline), accumulator(pipeline), angle(pipeline), output(pipeline), errors(pipeline)]
+}
+
+/// The tables of `pipeline` as text.
 pub fn explanation(pipeline: &Pipeline) -> String {
-    let sections =
-        [input(pipeline), accumulator(pipeline), angle(pipeline), output(pipeline), errors(pipeline)];
     let mut text = format!(
         "{}: scheme {}, {}\n",
         pipeline.name, pipeline.modulation.scheme.name, pipeline.modulation.scheme.reference
     );
-    for section in sections {
+    for section in sections(pipeline) {
         text.push('\n');
         text.push_str(&section.text());
     }

@@ -9,4 +9,5 @@ mod svg;
 
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
-pub use explanation::explanation;
+pub use explanation::{Section, explanation, sections};
+pub use svg::escaped;

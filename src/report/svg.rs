@@ -110,6 +110,7 @@ impl Svg {
     }
 }
 
-fn escaped(text: &str) -> String {
+/// `text` with nothing in it that XML would read.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -6,6 +6,8 @@
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
@@ -23,6 +25,30 @@ pub fn small(preset: &str, change: impl FnOnce(&mut Specification)) -> Pipeline 
         change(specification);
     };
     Pipeline::named(preset).unwrap().adapted("small", small).unwrap()
+}
+
+/// A command of the program `name`, which `scripts/hdl-tools.sh` installs with the set `set`, in `folder`. Nothing of a make or a
+/// user's settings reaches it.
+pub fn hdl_tool(name: &str, set: &str, folder: &Path) -> Command {
+    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join(".tools/hdl/bin").join(name);
+    assert!(
+        program.is_file(),
+        "{} is not here: bash scripts/hdl-tools.sh {set}, or `make setup`",
+        program.display()
+    );
+    let mut command = Command::new(program);
+    command.current_dir(folder).env("HOME", folder).stdin(Stdio::null());
+    for name in ["VERILATOR_ROOT", "MAKEFLAGS", "MFLAGS", "XDG_CONFIG_HOME", "XDG_DATA_HOME"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// Runs `command`: whether it succeeded, and all that it said.
+pub fn said(command: &mut Command) -> (bool, String) {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    (output.status.success(), text.into_owned())
 }
 
 /// Does `work` for every item, two at a time; the results in the items' order.
