@@ -42,13 +42,18 @@ module [[ prefix ]]_poly_arctangent #(
   reg [OFFSET_BITS-1:0] offset_q;
 [%- if curved %]
   reg                   backwards_q;
+[%- else %]
+  reg [OFFSET_BITS-1:0] offset_read_q;
 [%- endif %]
 
   always @(posedge clk_i) begin
     if (advance_i) begin
-      offset_q    <= {!ratio_i[OFFSET_BITS-1], ratio_i[OFFSET_BITS-2:0]};
 [%- if curved %]
+      offset_q    <= {!ratio_i[OFFSET_BITS-1], ratio_i[OFFSET_BITS-2:0]};
       backwards_q <= backwards_i;
+[%- else %]
+      offset_q      <= offset_read_q;
+      offset_read_q <= {!ratio_i[OFFSET_BITS-1], ratio_i[OFFSET_BITS-2:0]};
 [%- endif %]
     end
   end
@@ -62,7 +67,7 @@ module [[ prefix ]]_poly_arctangent #(
   ) u_multiplier (
     .clk_i    (clk_i),
     .advance_i(advance_i),
-    .a_i      ({1'b0, slope_q}),
+    .a_i      ({1'b0, slope}),
     .b_i      (offset_q),
     .product_o(product)
   );
@@ -76,9 +81,9 @@ module [[ prefix ]]_poly_arctangent #(
   always @(posedge clk_i) begin
     if (advance_i) begin
 [%- if curved %]
-      start_q   <= base_q + {{(WORD_BITS-GUARD_BITS-1){1'b0}}, !backwards_q, curve_q};
+      start_q   <= base + {{(WORD_BITS-GUARD_BITS-1){1'b0}}, !backwards_q, curve_q};
 [%- else %]
-      start_q   <= base_q;
+      start_q   <= base;
 [%- endif %]
       start_2_q <= start_q;
       start_3_q <= start_2_q;

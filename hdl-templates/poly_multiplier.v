@@ -81,13 +81,11 @@ module [[ prefix ]]_poly_multiplier #(
 
   assign product_o = result_q;
 
-  generate
-    if (SIGNED != 0) begin : g_signed
-      assign product = $signed(a_q) * $signed(b_q);
-    end else begin : g_unsigned
-      assign product = a_q * b_q;
-    end
-  endgenerate
+  if (SIGNED != 0) begin : g_signed
+    assign product = $signed(a_q) * $signed(b_q);
+  end else begin : g_unsigned
+    assign product = a_q * b_q;
+  end
 
   always @(posedge clk_i) begin
     if (advance_i) begin

@@ -27,10 +27,20 @@ module [[ prefix ]]_poly_reciprocal #(
   wire [INDEX_BITS-1:0] index = major_i[COORDINATE_BITS-2:LOW_BITS];
 
 [[ factor_table ]]
+[%- if memory %]
+  reg [COORDINATE_BITS-1:0] mirrored_read_q;
+[%- endif %]
   reg [COORDINATE_BITS-1:0] mirrored_q;
 
   always @(posedge clk_i) begin
-    if (advance_i) mirrored_q <= {major_i[COORDINATE_BITS-1:LOW_BITS], ~major_i[LOW_BITS-1:0]};
+    if (advance_i) begin
+[%- if memory %]
+      mirrored_q      <= mirrored_read_q;
+      mirrored_read_q <= {major_i[COORDINATE_BITS-1:LOW_BITS], ~major_i[LOW_BITS-1:0]};
+[%- else %]
+      mirrored_q <= {major_i[COORDINATE_BITS-1:LOW_BITS], ~major_i[LOW_BITS-1:0]};
+[%- endif %]
+    end
   end
 
   wire [PRODUCT_BITS-1:0] product;

@@ -58,6 +58,7 @@ struct Reciprocal<'a> {
     factor_bits: u32,
     result_bits: u32,
     clocks: u32,
+    memory: bool,
     factor_table: String,
 }
 
@@ -107,8 +108,15 @@ struct Angle<'a> {
     present_clocks: u32,
 }
 
-/// Clocks of a table and a multiplier.
-const TABLE_CLOCKS: u32 = 1 + MULTIPLIER_CLOCKS;
+/// Clocks of the reciprocal: its table and a multiplier.
+fn reciprocal_clocks(unit: &Poly) -> u32 {
+    unit.tables.clocks() + MULTIPLIER_CLOCKS
+}
+
+/// Clocks of the arctangent: its tables, a multiplier, and the sum.
+fn arctangent_clocks(unit: &Poly) -> u32 {
+    unit.tables.clocks() + MULTIPLIER_CLOCKS + 1
+}
 
 /// The Poly of a unit that is one; the module table asks for no other.
 fn poly<'a>(source: &AngleSource<'a>) -> askama::Result<&'a Poly> {
@@ -184,7 +192,8 @@ pub(super) fn reciprocal(source: &AngleSource, banner: String) -> askama::Result
         index_bits: shape.index_bits,
         factor_bits: shape.factor_bits,
         result_bits: shape.result_bits,
-        clocks: TABLE_CLOCKS,
+        clocks: reciprocal_clocks(unit),
+        memory: unit.tables == Tables::Memory,
         factor_table: match unit.tables {
             Tables::Logic => rom.logic(),
             Tables::Memory => rom.memory(),
@@ -223,7 +232,7 @@ pub(super) fn arctangent(source: &AngleSource, banner: String) -> askama::Result
         guard_bits: shape.guard_bits,
         angle_bits,
         phase_bits: unit.phase_bits,
-        clocks: TABLE_CLOCKS + 1,
+        clocks: arctangent_clocks(unit),
         curve_offset_bits: shape.curve_offset_bits,
         curve_range: range(shape.curve_offset_bits.max(1)),
         size_range: format!("[{}:{}]", offset_bits - 2, offset_bits - 1 - shape.curve_offset_bits),
@@ -242,7 +251,7 @@ fn line_and_curve(unit: &Poly, word_bits: u32) -> String {
     let shape = &unit.arctangent;
     let half = 1 << (shape.guard_bits - 1);
     let bases: Vec<i64> = shape.bases.iter().map(|base| base - half).collect();
-    [
+    let tables = [
         ("base", "Angles of the middles, less half a code", "segment", word_bits, &bases),
         ("slope", "Slopes", "segment", shape.slope_bits, &shape.slopes),
         ("curve", "Curves", "bend", shape.guard_bits, &shape.curves),
@@ -250,7 +259,10 @@ fn line_and_curve(unit: &Poly, word_bits: u32) -> String {
     .map(|(name, what, index, bits, values)| {
         Rom { name, what, index, bits, words: &patterns(values, bits) }.logic()
     })
-    .join("\n")
+    .join("\n");
+    let wires = [("base", word_bits), ("slope", shape.slope_bits)]
+        .map(|(name, bits)| format!("  wire {} {name} = {name}_q;\n", range(bits)));
+    format!("{tables}\n{}", wires.concat())
 }
 
 /// One table of base and slope, for either rounding.
@@ -269,7 +281,7 @@ fn lines(unit: &Poly, word_bits: u32) -> String {
     let what = "Angles of the middles, half a code more or less, and slopes";
     let rom = Rom { name: "line", what, index: "line", bits, words: &words };
     format!(
-        "{}\n  wire {} base_q  = line_q[{}:{}];\n  wire {} slope_q = line_q{};\n",
+        "{}\n  wire {} base = line_q[{}:{}];\n  wire {} slope = line_q{};\n",
         rom.memory(),
         range(word_bits),
         bits - 1,
@@ -287,7 +299,6 @@ pub(super) fn angle(source: &AngleSource, banner: String) -> askama::Result<Stri
         [x, y, angle.phase, angle.zero.into()].map(|value| value.to_string()).to_vec()
     });
     let shifts = unit.shifts.len() as u32;
-    let arctangent_clocks = TABLE_CLOCKS + 1;
     Angle {
         banner,
         prefix,
@@ -302,10 +313,10 @@ pub(super) fn angle(source: &AngleSource, banner: String) -> askama::Result<Stri
         shift_bits: source.unit.shift_bits(),
         meta_bits: source.meta_bits,
         latency_clocks: unit.latency_clocks,
-        octant_clocks: shifts + TABLE_CLOCKS + MULTIPLIER_CLOCKS,
-        reciprocal_clocks: TABLE_CLOCKS,
-        arctangent_clocks,
-        present_clocks: TABLE_CLOCKS + MULTIPLIER_CLOCKS + arctangent_clocks,
+        octant_clocks: shifts + reciprocal_clocks(unit) + MULTIPLIER_CLOCKS,
+        reciprocal_clocks: reciprocal_clocks(unit),
+        arctangent_clocks: arctangent_clocks(unit),
+        present_clocks: reciprocal_clocks(unit) + MULTIPLIER_CLOCKS + arctangent_clocks(unit),
     }
     .render()
 }

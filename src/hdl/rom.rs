@@ -2,7 +2,7 @@
 
 use super::text::range;
 
-/// A table of `bits`-bit words, and the register that it is read into: `name` with `_q`, one move after `index`.
+/// A table of `bits`-bit words, and the register that it ends in: `name` with `_q`.
 pub(super) struct Rom<'a> {
     pub name: &'a str,
     /// What the table holds, for its comment.
@@ -16,7 +16,7 @@ pub(super) struct Rom<'a> {
 }
 
 impl Rom<'_> {
-    /// One constant a bit, chosen from by the index: no tool takes that for a memory.
+    /// One constant a bit, chosen from by the index: no tool takes that for a memory. One move.
     pub(super) fn logic(&self) -> String {
         let Self { name, what, index, bits, words } = self;
         let upper = name.to_uppercase();
@@ -46,19 +46,28 @@ impl Rom<'_> {
         lines.join("\n")
     }
 
-    /// A clocked case, which tools take for a memory that is read synchronously.
+    /// A clocked case, which tools take for a memory that is read synchronously, and another register, because a memory's
+    /// output is late in its clock. Two moves.
     pub(super) fn memory(&self) -> String {
         let Self { name, what, index, bits, words } = self;
         let index_bits = words.len().trailing_zeros();
         let mut lines = vec![
             format!("  // {what}: a block RAM's contents."),
+            format!("  reg {} {name}_read_q;", range(*bits)),
             format!("  reg {} {name}_q;\n", range(*bits)),
             "  always @(posedge clk_i) begin".to_owned(),
             "    if (advance_i) begin".to_owned(),
+            format!("      {name}_q <= {name}_read_q;"),
             format!("      case ({index})"),
         ];
         lines.extend((0..).zip(*words).map(|(place, word): (usize, _)| {
-            format!("        {index_bits}'d{place}: {name}_q <= {bits}'h{word:x};")
+            // Every index has its word; the last one stands for what a simulator calls unknown, too.
+            let label = if place + 1 == words.len() {
+                "default".to_owned()
+            } else {
+                format!("{index_bits}'d{place}")
+            };
+            format!("        {label}: {name}_read_q <= {bits}'h{word:x};")
         }));
         lines.push("      endcase\n    end\n  end\n".to_owned());
         lines.join("\n")

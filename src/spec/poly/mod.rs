@@ -37,6 +37,14 @@ impl Tables {
             Self::Memory => "memory",
         }
     }
+
+    /// Clocks from an index to its word: a block RAM's output is late in its clock and gets a register of its own.
+    pub const fn clocks(self) -> u32 {
+        match self {
+            Self::Logic => 1,
+            Self::Memory => 2,
+        }
+    }
 }
 
 /// What the unit is to be.
@@ -106,8 +114,8 @@ impl Poly {
         let reciprocal = Reciprocal::new(phase_bits, coordinate_bits, tables);
         let ratio_bits = phase_bits + 1;
         let arctangent = Arctangent::new(phase_bits, ratio_bits, reciprocal.scale_bits, tables);
-        // Comparison, swap, shifts; factor, reciprocal, ratio; line, product, sum; unfolding.
-        let latency_clocks = 2 + shifts.len() as u32 + 1 + 3 * MULTIPLIER_CLOCKS + 1 + 1 + 1;
+        // Comparison, swap, shifts; factor, reciprocal, ratio, line, product; sum, unfolding.
+        let latency_clocks = 2 + shifts.len() as u32 + 2 * tables.clocks() + 3 * MULTIPLIER_CLOCKS + 2;
         let unit = Self {
             specification,
             word_bits,
