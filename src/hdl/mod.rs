@@ -7,7 +7,9 @@ mod bench;
 mod control;
 mod golden;
 mod polar;
+mod poly;
 mod registers;
+mod rom;
 mod sequencer;
 mod text;
 mod top;
@@ -124,6 +126,7 @@ pub fn angle_artifacts(source: &AngleSource, spec: &str) -> Vec<Artifact> {
     let mut artifacts = angle_files(source, spec);
     let top = format!("{}_angle", source.prefix);
     artifacts.push(file_list(&artifacts, &top, spec));
+    artifacts.extend(poly::ecp5_artifact(source, spec));
     artifacts
 }
 

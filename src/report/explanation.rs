@@ -151,6 +151,7 @@ fn angle(pipeline: &Pipeline) -> Section {
             Architecture::Unrolled => "unrolled".to_owned(),
             Architecture::Folded { stages, rounds } => format!("a ring of {stages} stages, {rounds} rounds"),
             Architecture::Iterative => "one iteration a clock".to_owned(),
+            Architecture::Tables => "tables and multipliers".to_owned(),
         },
         format!("a vector every {} clocks", angle.clocks_a_vector(0)),
     );

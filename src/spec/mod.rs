@@ -9,6 +9,7 @@ mod derived;
 mod design;
 pub mod exact;
 mod file;
+mod poly;
 mod presets;
 mod registers;
 mod scheme;
@@ -16,13 +17,14 @@ mod sequence;
 mod word;
 
 pub use angle::{
-    AngleBudget, AngleCore, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic,
+    AngleBudget, AngleCore, AngleGroup, AngleSpecification, AngleUnit, Architecture, Atan, Cordic,
     ONE_ITERATION_A_CLOCK, Rounding, StageWord, Stages, Throughput,
 };
 pub use budget::{Contribution, ErrorBudget};
 pub use derived::Derived;
 pub use design::Design;
 pub use exact::ScaledConstant;
+pub use poly::{Arctangent, MULTIPLIER_CLOCKS, Poly, PolySpecification, Reciprocal, Tables};
 pub use presets::{ANGLE_PRESETS, PRESETS, Preset};
 pub use registers::{
     ADDRESS_BITS, Content, Counter, IDENTIFICATION, REGISTER_BYTES, REGISTERS, Register, RegisterBlock,
