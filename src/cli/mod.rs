@@ -1,9 +1,11 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
 mod campaign;
+mod coverage;
 mod demo;
 mod explain;
 mod generate;
+mod mutate;
 mod print;
 mod process;
 mod progress;
@@ -39,6 +41,8 @@ enum Command {
     Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
     Synth(synth::Synth),
+    Mutate(mutate::Mutate),
+    Coverage(coverage::Coverage),
 }
 
 impl Arguments {
@@ -54,6 +58,8 @@ impl Arguments {
             Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Synth(command) => command.run(),
+            Command::Mutate(command) => command.run(),
+            Command::Coverage(command) => command.run(),
         }
     }
 }

@@ -121,6 +121,18 @@ pub fn modules(pipeline: &Pipeline) -> Vec<(&'static str, &'static str)> {
         .collect()
 }
 
+/// The nouns of all modules that any pipeline has, in the order in which they are listed.
+pub fn module_nouns() -> impl Iterator<Item = &'static str> {
+    let mut nouns: Vec<&'static str> = MODULES.iter().map(|module| module.noun).collect();
+    // Another architecture's module of the same noun is the same row.
+    for module in ANGLE_MODULES {
+        if !nouns.contains(&module.noun) {
+            nouns.push(module.noun);
+        }
+    }
+    nouns.into_iter()
+}
+
 /// The Verilog files of the angle unit alone, its top module `<prefix>_angle` last, and the file list.
 pub fn angle_artifacts(source: &AngleSource, spec: &str) -> Vec<Artifact> {
     let mut artifacts = angle_files(source, spec);
