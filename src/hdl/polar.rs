@@ -44,7 +44,7 @@ struct Amplitude {
     factor_shift: u32,
     exponent: i64,
     gain: String,
-    divisor: i64,
+    divisor: f64,
     rows: Vec<String>,
     x_bits: u32,
     shift_bits: u32,
@@ -81,8 +81,7 @@ pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<Strin
             - i64::from(derived.fraction_bits),
         gain: format!("{:.9}", exact::cordic_gain_f64(pipeline.cordic.iterations)),
         divisor: pipeline.modulation.scheme.gain
-            * derived.in_phase_factor
-            * pipeline.modulation.frames_per_step as i64,
+            * (derived.in_phase_factor * pipeline.modulation.frames_per_step as i64) as f64,
         rows: table(&rows),
         x_bits: derived.cordic_x.bits,
         shift_bits,

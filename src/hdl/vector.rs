@@ -11,7 +11,7 @@ use askama::Template;
 struct Scaling {
     banner: String,
     prefix: String,
-    scheme: &'static str,
+    scheme: String,
     in_phase_factor: i64,
     quadrature_factor: i64,
     factor_error: String,
@@ -37,7 +37,7 @@ pub(super) fn scaling(source: &Source, banner: String) -> askama::Result<String>
     Scaling {
         banner,
         prefix: pipeline.prefix(),
-        scheme: pipeline.modulation.scheme.name,
+        scheme: pipeline.modulation.scheme.name.to_string(),
         in_phase_factor: derived.in_phase_factor,
         quadrature_factor: derived.quadrature_factor,
         factor_error: format!("{:.2e}", derived.factor_error),

@@ -29,7 +29,7 @@ use rand_distr::{Distribution, StandardNormal};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Acquisition {
     /// The phase steps of a set.
-    pub scheme: &'static Scheme,
+    pub scheme: Scheme,
     /// Raw frames taken one after the other at every phase step, at least 1.
     pub frames_per_step: usize,
     /// Modulation frequency, Hz, > 0.
@@ -83,7 +83,7 @@ pub fn simulate(
         let middle = view(acquisition.middle_s(set));
         let mut true_m: Vec<f64> = middle.iter().map(|s| s.map_or(f64::NAN, |s| s.range_m)).collect();
         for frame in 0..frames_per_set {
-            let angle_rad = (frame / acquisition.frames_per_step) as f64 * acquisition.scheme.step_rad();
+            let angle_rad = acquisition.scheme.angle_rad(frame / acquisition.frames_per_step);
             let mut noise = noise_seed.map(|seed| noise_of_frame(seed, set * frames_per_set + frame));
             for (pixel, surface) in view(acquisition.start_s(set, frame)).into_iter().enumerate() {
                 if object(surface) != object(middle[pixel]) {

@@ -1,13 +1,15 @@
 //! Which hardware fits a recording: sensor, ADC, frequency and frames a step are the recording's, the rest is the
 //! specification's.
 //!
-//! The phase scheme is recognised by the frames' phase steps. A set's phase offset is not among them: the hardware adds
+//! The phase scheme is recognised by the frames' phase steps: a named one, or the plain DFT of any number of equal parts of a
+//! turn. A set's phase offset is not among them: the hardware adds
 //! nothing to a phase, so whoever reads the phase adds the offset.
 
 use super::Recording;
 use crate::problem::{Problem, Result};
-use crate::spec::{Pipeline, SCHEMES, Scheme, Specification, Word};
+use crate::spec::{COEFFICIENT_BITS, DFT_FRAMES, Pipeline, SCHEMES, Scheme, Specification, Word, scheme};
 use crate::units::wrap_rad;
+use std::f64::consts::TAU;
 
 /// Steps that differ by less, modulo 2π, are the same, rad. Steps written with five digits are (1.5708), and what is then
 /// left in the phase, under 0.1 mrad, is below any camera's noise; a step that is really wrong is off by more.
@@ -22,7 +24,8 @@ pub enum SchemeChoice {
     /// The specification's; a recording of other steps is refused.
     #[default]
     Specified,
-    /// The first of [`SCHEMES`] that has the recording's steps.
+    /// The specification's where it has the recording's steps, else the first of [`SCHEMES`] that has them, else the plain DFT
+    /// where they are equal parts of a turn.
     Auto,
 }
 
@@ -35,7 +38,7 @@ pub fn pipeline_for(
     base: &Pipeline,
     choice: SchemeChoice,
 ) -> Result<(Pipeline, Vec<String>)> {
-    let (scheme, frames_per_step) = scheme_of(recording, base.modulation.scheme, choice)?;
+    let (scheme, frames_per_step) = scheme_of(recording, base, choice)?;
     let source = format!("{} adapted to {}", base.name, recording.folder.display());
     let pipeline = base.adapted(&source, |specification| {
         let Specification { sensor, modulation, .. } = specification;
@@ -66,7 +69,7 @@ fn differences(recording: &Recording, base: &Pipeline, pipeline: &Pipeline) -> V
         ("sensor", "frames.npy", &size),
         ("ADC", adc_source, &|p| format!("{} bits", p.sensor.adc_bits)),
         ("saturation", "the ADC's bits", &|p| format!("{} DN", p.sensor.saturation_dn)),
-        ("scheme", "the phase steps", &|p| p.modulation.scheme.name.to_owned()),
+        ("scheme", "the phase steps", &|p| shown_scheme(&p.modulation.scheme)),
         ("frames per step", "the phase steps", &|p| p.modulation.frames_per_step.to_string()),
         ("modulation", "recording.toml", &|p| format!("{} MHz", p.modulation.frequency_hz / 1e6)),
     ];
@@ -77,33 +80,37 @@ fn differences(recording: &Recording, base: &Pipeline, pipeline: &Pipeline) -> V
         .collect()
 }
 
+/// The name of `scheme`; a DFT's with its frames.
+fn shown_scheme(scheme: &Scheme) -> String {
+    if scheme.name == "dft" { format!("dft of {} frames", scheme.steps()) } else { scheme.name.to_string() }
+}
+
 /// The scheme of `recording` and its frames a step.
-fn scheme_of(
-    recording: &Recording,
-    specified: &'static Scheme,
-    choice: SchemeChoice,
-) -> Result<(&'static Scheme, usize)> {
+fn scheme_of(recording: &Recording, base: &Pipeline, choice: SchemeChoice) -> Result<(Scheme, usize)> {
     let steps_rad = &recording.steps_rad;
     let file = recording.folder.join("recording.toml");
-    let found = SCHEMES.iter().find_map(|scheme| Some((scheme, frames_per_step(scheme, steps_rad)?)));
-    let wanted = match choice {
-        SchemeChoice::Auto => found,
-        SchemeChoice::Specified => frames_per_step(specified, steps_rad).map(|frames| (specified, frames)),
-    };
-    match (wanted, found) {
-        (Some(scheme), _) => Ok(scheme),
-        (None, Some((other, _))) => Err(Problem::in_file(
-            &file,
-            format_args!("its phase steps are those of the scheme {}", other.name),
-        )
-        .expected(format_args!(
-            "those of the specified scheme {}: {}",
-            specified.name,
-            shown_rad(&scheme_steps_rad(specified))
-        ))
-        .remedy(format_args!("`--scheme auto` picks {}", other.name))),
-        (None, None) => {
-            let known = SCHEMES.iter().map(|scheme| {
+    let specified = &base.modulation.scheme;
+    let fits = |scheme: &Scheme| Some((scheme.clone(), frames_per_step(scheme, steps_rad)?));
+    let own = fits(specified);
+    if let Some(scheme) = own {
+        return Ok(scheme);
+    }
+    let found = SCHEMES.iter().find_map(fits).or_else(|| dft_of(steps_rad, base));
+    match (choice, found) {
+        (SchemeChoice::Auto, Some(scheme)) => Ok(scheme),
+        (SchemeChoice::Specified, Some((other, _))) => {
+            let other = shown_scheme(&other);
+            Err(Problem::in_file(&file, format_args!("its phase steps are those of the scheme {other}"))
+                .expected(format_args!(
+                    "those of the specified scheme {}: {}",
+                    specified.name,
+                    shown_rad(&scheme_steps_rad(specified))
+                ))
+                .remedy(format_args!("`--scheme auto` picks {other}")))
+        }
+        (_, None) => {
+            let known = SCHEMES.iter().chain(Some(specified).filter(|own| scheme(&own.name).is_none()));
+            let known = known.map(|scheme| {
                 let steps = shown_rad(&scheme_steps_rad(scheme));
                 format!("\n    {}: {steps}", scheme.name)
             });
@@ -113,12 +120,36 @@ fn scheme_of(
             )
             .expected(format_args!(
                 "modulo 2 pi, within {STEP_TOLERANCE_RAD:e} rad, one of the following, each step held for the same \
-                 number of consecutive frames{}",
-                known.collect::<String>()
+                 number of consecutive frames{}\n    dft: {} to {} equal parts of a turn",
+                known.collect::<String>(),
+                DFT_FRAMES.start(),
+                DFT_FRAMES.end()
             ))
             .remedy("select or reorder the frames of each set, or record with the steps of a scheme"))
         }
     }
+}
+
+/// Part of a phase code that rounding a DFT's cosines and sines may cost, where nobody has said with how many bits.
+const COEFFICIENT_SHARE: f64 = 1.0 / 4.0;
+
+/// The plain DFT whose steps `steps_rad` are, and its frames a step, with as few bits a coefficient as keep their rounding
+/// below [`COEFFICIENT_SHARE`] of a phase code of `base` (or all, where none do).
+fn dft_of(steps_rad: &[f64], base: &Pipeline) -> Option<(Scheme, usize)> {
+    let code_rad = TAU / f64::from(base.output.phase_bits).exp2();
+    let all_bits = *COEFFICIENT_BITS.end();
+    let (steps, frames) = DFT_FRAMES
+        .filter(|&steps| steps_rad.len().is_multiple_of(steps))
+        .map(|steps| (steps, steps_rad.len() / steps))
+        .find(|&(steps, frames)| {
+            steps_rad.iter().enumerate().all(|(n, step_rad)| {
+                wrap_rad(step_rad - TAU * (n / frames) as f64 / steps as f64).abs() < STEP_TOLERANCE_RAD
+            })
+        })?;
+    let dft = |coefficient_bits| Scheme::dft(steps, coefficient_bits);
+    let exact = |scheme: &Scheme| scheme.weight_error_rad <= COEFFICIENT_SHARE * code_rad;
+    let scheme = COEFFICIENT_BITS.filter_map(dft).find(exact).or_else(|| dft(all_bits))?;
+    Some((scheme, frames))
 }
 
 /// How many consecutive frames each step of `scheme` is held for, where `steps_rad` are its steps.
@@ -126,13 +157,13 @@ fn frames_per_step(scheme: &Scheme, steps_rad: &[f64]) -> Option<usize> {
     let frames = steps_rad.len() / scheme.steps();
     let whole = frames > 0 && steps_rad.len().is_multiple_of(scheme.steps());
     let same = |(n, step_rad): (usize, &f64)| {
-        wrap_rad(step_rad - (n / frames) as f64 * scheme.step_rad()).abs() < STEP_TOLERANCE_RAD
+        wrap_rad(step_rad - scheme.angle_rad(n / frames)).abs() < STEP_TOLERANCE_RAD
     };
     (whole && steps_rad.iter().enumerate().all(same)).then_some(frames)
 }
 
 fn scheme_steps_rad(scheme: &Scheme) -> Vec<f64> {
-    (0..scheme.steps()).map(|n| n as f64 * scheme.step_rad()).collect()
+    (0..scheme.steps()).map(|n| scheme.angle_rad(n)).collect()
 }
 
 /// Steps for a refusal.
@@ -184,7 +215,7 @@ mod tests {
         for scheme in SCHEMES {
             for frames_per_step in [1, 3] {
                 for extra_rad in [0.0, TAU, -2.0 * TAU, 4e-7] {
-                    let recording = recording(steps(scheme.name, frames_per_step, extra_rad), 4000);
+                    let recording = recording(steps(&scheme.name, frames_per_step, extra_rad), 4000);
                     let (pipeline, _) = pipeline_for(&recording, &base, SchemeChoice::Auto).unwrap();
                     assert_eq!(pipeline.modulation.scheme.name, scheme.name);
                     assert_eq!(pipeline.modulation.frames_per_step, frames_per_step);
@@ -248,6 +279,28 @@ mod tests {
         let steps_rad = (0..5).map(|n| f64::from(n) * 2.0944).collect();
         let (pipeline, _) = pipeline_for(&recording(steps_rad, 4000), &base, SchemeChoice::Auto).unwrap();
         assert_eq!(pipeline.modulation.scheme.name, "wdft");
+    }
+
+    #[test]
+    fn equal_parts_of_a_turn_that_no_named_scheme_has_are_a_dft() {
+        let base = Pipeline::named("vuris").unwrap();
+        let code_rad = TAU / f64::from(base.output.phase_bits).exp2();
+        for (parts, frames_per_step) in [(3, 1), (6, 1), (7, 2), (64, 1)] {
+            let step_rad = |frame: usize| TAU * (frame / frames_per_step) as f64 / parts as f64;
+            let recording = recording((0..parts * frames_per_step).map(step_rad).collect(), 4000);
+            let (pipeline, sentences) = pipeline_for(&recording, &base, SchemeChoice::Auto).unwrap();
+            let scheme = &pipeline.modulation.scheme;
+            assert_eq!((&*scheme.name, scheme.steps()), ("dft", parts));
+            assert_eq!(pipeline.modulation.frames_per_step, frames_per_step);
+            assert!(scheme.weight_error_rad <= COEFFICIENT_SHARE * code_rad, "{scheme:?}");
+            let sentence = format!("scheme dft of {parts} frames from the phase steps instead of wdft");
+            assert!(sentences.contains(&sentence), "{sentences:?}");
+            // A specification of that DFT takes it as it is; one of another says which.
+            let again = pipeline_for(&recording, &pipeline, SchemeChoice::Specified).unwrap().0;
+            assert_eq!(again.modulation.scheme, *scheme);
+            let refusal = pipeline_for(&recording, &base, SchemeChoice::Specified).unwrap_err().to_string();
+            assert!(refusal.contains(&format!("picks dft of {parts} frames")), "{refusal}");
+        }
     }
 
     #[test]

@@ -95,18 +95,20 @@ impl ErrorBudget {
             },
         ];
 
+        let phase = with_weight_error(phase, pipeline, codes_a_rad);
+
         let relative = |value: f64, truth: f64| (value / truth - 1.0).abs();
         let gain = exact::cordic_gain_f64(pipeline.cordic.iterations);
         let exponent = f64::from(pipeline.output.amplitude_fraction_bits)
             + f64::from(derived.normaliser.magnitude_bits)
             - 1.0
             - f64::from(derived.fraction_bits);
-        let divisor = (pipeline.modulation.scheme.gain
-            * derived.in_phase_factor
-            * pipeline.modulation.frames_per_step as i64) as f64;
+        let scheme = &pipeline.modulation.scheme;
+        let divisor =
+            scheme.gain * (derived.in_phase_factor * pipeline.modulation.frames_per_step as i64) as f64;
         let amplitude_truth = exponent.exp2() / (gain * divisor);
         let offset_truth = f64::from(pipeline.output.offset_fraction_bits).exp2()
-            / (pipeline.modulation.scheme.offset_gain() * pipeline.modulation.frames_per_step as i64) as f64;
+            / (scheme.offset_gain() * pipeline.modulation.frames_per_step as i64) as f64;
         let distance_truth = crate::units::unambiguous_range_m(pipeline.modulation.frequency_hz)
             / pipeline.output.distance_unit_m
             / f64::from(phase_bits).exp2();
@@ -118,6 +120,7 @@ impl ErrorBudget {
                 + derived.factor_error
                 + walk.turned_rad
                 + rounding_of_input
+                + scheme.weight_error_amplitude
                 + walk.remaining_rad * walk.remaining_rad / 2.0
                 + 1e-14,
             offset_relative: relative(derived.offset_factor.value(), offset_truth) + 1e-14,
@@ -150,6 +153,28 @@ impl ErrorBudget {
     pub fn distance_codes(&self, codes: f64) -> f64 {
         0.5 + codes * self.distance_relative
     }
+}
+
+/// `phase` with what weights that are not quite the true ones do to a sinusoid, before everything else.
+fn with_weight_error(
+    mut phase: Vec<Contribution>,
+    pipeline: &Pipeline,
+    codes_a_rad: f64,
+) -> Vec<Contribution> {
+    let scheme = &pipeline.modulation.scheme;
+    if scheme.weight_error_rad > 0.0 {
+        let contribution = Contribution {
+            name: "rounding of the weights",
+            phase_codes: scheme.weight_error_rad * codes_a_rad,
+            why: format!(
+                "of a sinusoid over constant light: the sums of the weights times it, with {} weights instead of the true \
+                 ones, turn by so much at most; constant light adds nothing, as the weights add up to 0",
+                scheme.name
+            ),
+        };
+        phase.insert(0, contribution);
+    }
+    phase
 }
 
 /// How far rounding can lead the iteration astray.

@@ -82,6 +82,9 @@ pub struct Derived {
 /// Relative share of one phase code that the irrational's approximation may cost: 1/16.
 const IRRATIONAL_SHARE: f64 = 1.0 / 16.0;
 
+/// Widest coordinate of a vector: the model holds every product in 64 bits.
+const MOST_VECTOR_BITS: u32 = 56;
+
 /// Significant bits of a factor beyond those of its result. A multiplier of n bits is off by at most half of its last bit, a
 /// relative error of 2^-n, so that a result of n - 4 bits is off by less than 1/16 code.
 const FACTOR_GUARD_BITS: u32 = 4;
@@ -90,7 +93,7 @@ impl Derived {
     /// Derives everything; `source` is the name that a refusal gives.
     pub(super) fn new(source: &str, specification: &Specification) -> Result<Self> {
         let Specification { sensor, modulation, cordic, output, .. } = specification;
-        let scheme = modulation.scheme;
+        let scheme = &modulation.scheme;
         let frames_per_step = modulation.frames_per_step as i64;
         let sample = Word::unsigned(sensor.adc_bits);
         let bounds = |weights: &[i64]| {
@@ -99,8 +102,8 @@ impl Derived {
             (total(-1), total(1))
         };
         let word = |(low, high)| Word::holding(low, high);
-        let (in_phase, quadrature) = (bounds(scheme.in_phase), bounds(scheme.quadrature));
-        let offset_sum = bounds(scheme.offset);
+        let (in_phase, quadrature) = (bounds(&scheme.in_phase), bounds(&scheme.quadrature));
+        let offset_sum = bounds(&scheme.offset);
         let memory_word_bits = word(in_phase).bits + word(quadrature).bits + word(offset_sum).bits + 1;
 
         let (quadrature_factor, in_phase_factor, factor_error) = match scheme.irrational {
@@ -114,6 +117,15 @@ impl Derived {
         };
         let times = |(low, high): (i64, i64), factor: i64| (low * factor, high * factor);
         let (x, y) = (times(in_phase, in_phase_factor), times(quadrature, quadrature_factor));
+        let vector_bits = word(x).bits.max(word(y).bits);
+        if vector_bits > MOST_VECTOR_BITS {
+            return Err(refused(source, "modulation.scheme", &scheme.name)
+                .expected(format_args!(
+                    "weights, ADC bits and frames a step that make a vector of at most {MOST_VECTOR_BITS} bits (these need \
+                     {vector_bits})"
+                ))
+                .remedy("take smaller weights, or fewer frames a step"));
+        }
         let largest = |(low, high): (i64, i64)| high.max(-low);
         let magnitude_bits = Word::unsigned(1).bits.max(Word::holding(0, largest(x).max(largest(y))).bits);
         let fraction_bits = output.phase_bits + cordic.vector_guard_bits;
@@ -136,15 +148,20 @@ impl Derived {
             (1..=cordic.iterations).map(|i| exact::atan_of_power_of_two(i, angle_bits)).collect();
 
         // Amplitude: |v| = x_N / K · 2^(magnitude_bits − 1 − fraction_bits − shift), A = |v| / divisor.
-        let divisor = scheme.gain * in_phase_factor * frames_per_step;
+        let divisor = scheme.gain * (in_phase_factor * frames_per_step) as f64;
         let amplitude_scale = 2f64.powi(output.amplitude_fraction_bits as i32);
         let largest_vector = (largest(x) as f64).hypot(largest(y) as f64);
         // x leaves the CORDIC too large by at most half an ulp and half an ulp of y's effect an iteration, each an ulp of
         // at least 1.0, and two of the normaliser; the factor's own error and the last rounding add less than a code.
         let relative = factor_error + f64::from(cordic.iterations + 2) / f64::from(fraction_bits).exp2();
         let amplitude_limit =
-            (largest_vector / divisor as f64 * amplitude_scale * (1.0 + relative)).ceil() as i64 + 1;
+            (largest_vector / divisor * amplitude_scale * (1.0 + relative)).ceil() as i64 + 1;
         let amplitude = Word::holding(0, amplitude_limit);
+        if fraction_bits + 2 + amplitude.bits + FACTOR_GUARD_BITS > 63 {
+            return Err(refused(source, "output.amplitude_fraction_bits", output.amplitude_fraction_bits)
+                .expected("an amplitude whose product with its factor has at most 63 bits")
+                .remedy("take fewer, or weights that add up to more of the amplitude"));
+        }
         let exponent = i64::from(output.amplitude_fraction_bits) + i64::from(magnitude_bits)
             - 1
             - i64::from(fraction_bits);
@@ -169,6 +186,11 @@ impl Derived {
 
         let offset_divisor = scheme.offset_gain() * frames_per_step;
         let offset = Word::unsigned(sensor.adc_bits + output.offset_fraction_bits);
+        if word(offset_sum).bits + offset.bits + FACTOR_GUARD_BITS > 63 {
+            return Err(refused(source, "modulation.scheme.offset", format_args!("{:?}", scheme.offset))
+                .expected("weights whose sum's product with its factor has at most 63 bits")
+                .remedy("take smaller weights, or fewer output.offset_fraction_bits"));
+        }
         let offset_factor = exact::ratio_factor(
             offset_divisor,
             output.offset_fraction_bits.into(),

@@ -2,16 +2,17 @@
 //!
 //! Nothing here uses `f64` functions: results are correctly rounded integers.
 
+use super::step_angle::StepAngle;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 /// A binary floating-point number of [`PRECISION_BITS`] bits.
-type Real = FBig<HalfEven, 2>;
+pub(super) type Real = FBig<HalfEven, 2>;
 
 /// Far more than the 63 bits of the widest register: rounding to an integer is then the only rounding that counts.
 const PRECISION_BITS: usize = 192;
 
-fn integer(value: i64) -> Real {
+pub(super) fn integer(value: i64) -> Real {
     Real::from(value).with_precision(PRECISION_BITS).value()
 }
 
@@ -25,7 +26,7 @@ fn power_of_two(exponent: i64) -> Real {
 }
 
 /// Nearest integer (ties away from zero, which no constant here meets).
-fn rounded(value: &Real) -> i64 {
+pub(super) fn rounded(value: &Real) -> i64 {
     i64::try_from(value.round().to_int().value()).expect("constants are bounded by their words")
 }
 
@@ -39,6 +40,13 @@ pub fn atan_of_power_of_two(shift: u32, bits: u32) -> i64 {
 pub fn atan_of_power_of_two_f64(shift: u32, bits: u32) -> f64 {
     let turn = Real::pi(PRECISION_BITS) * integer(2);
     (power_of_two(-i64::from(shift)).atan() / turn * power_of_two(bits.into())).to_f64().value()
+}
+
+/// Cosine and sine of `angle`.
+pub(super) fn cosine_and_sine(angle: StepAngle) -> (Real, Real) {
+    let turn = Real::pi(PRECISION_BITS) * integer(2);
+    let (sine, cosine) = (turn * integer(angle.numerator()) / integer(angle.denominator())).sin_cos();
+    (cosine, sine)
 }
 
 /// The CORDIC's gain Π √(1 + 2^−2i) over i = 1 … `iterations` (Volder 1959; Walther 1971).
@@ -96,8 +104,8 @@ impl ScaledConstant {
 }
 
 /// 2^`exponent` / (CORDIC gain · `divisor`), to `bits` significant bits.
-pub fn amplitude_factor(iterations: u32, divisor: i64, exponent: i64, bits: u32) -> Option<ScaledConstant> {
-    ScaledConstant::new(&(power_of_two(exponent) / (cordic_gain(iterations) * integer(divisor))), bits)
+pub fn amplitude_factor(iterations: u32, divisor: f64, exponent: i64, bits: u32) -> Option<ScaledConstant> {
+    ScaledConstant::new(&(power_of_two(exponent) / (cordic_gain(iterations) * of_f64(divisor))), bits)
 }
 
 /// 2^`exponent` / `divisor`, to `bits` significant bits.

@@ -1,7 +1,7 @@
 //! The specification's TOML file: reading, checking and writing.
 
 use super::{
-    Cordic, Modulation, Output, PRESETS, Pipeline, Sensor, Specification, Word, refused, scheme, scheme_names,
+    Cordic, Modulation, Output, PRESETS, Pipeline, Sensor, Specification, Word, refused, scheme_file,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -57,11 +57,9 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let modulation = top.section("modulation")?;
-    modulation.only(&["scheme", "frequency_hz", "frames_per_step"])?;
-    let one_of = format!("one of {}", scheme_names());
+    modulation.only(&["scheme", "frequency_hz", "frames_per_step", "frames", "coefficient_bits"])?;
     let modulation = Modulation {
-        scheme: scheme(modulation.text("scheme", &one_of)?)
-            .ok_or_else(|| modulation.refuse("scheme", &one_of))?,
+        scheme: scheme_file::read(source, &modulation)?,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
     };
@@ -145,7 +143,7 @@ pub(super) fn write(specification: &Specification) -> String {
          \n[sensor]\n\
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
-         scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
+         {}frequency_hz = {:?}\nframes_per_step = {}\n{}\
          \n[cordic]\n\
          iterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\n\
          \n[output]\n\
@@ -156,9 +154,10 @@ pub(super) fn write(specification: &Specification) -> String {
         sensor.adc_bits,
         sensor.saturation_dn,
         sensor.line_blanking_clocks,
-        modulation.scheme.name,
+        scheme_file::fields(&modulation.scheme),
         modulation.frequency_hz,
         modulation.frames_per_step,
+        scheme_file::table(&modulation.scheme),
         cordic.iterations,
         cordic.vector_guard_bits,
         cordic.angle_guard_bits,

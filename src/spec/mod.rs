@@ -5,17 +5,25 @@
 
 mod budget;
 mod derived;
+mod dft;
 pub mod exact;
 mod file;
 mod presets;
+mod response;
+mod row;
 mod scheme;
+mod scheme_file;
+mod step_angle;
 mod word;
 
 pub use budget::{Contribution, ErrorBudget};
 pub use derived::{Derived, Normaliser};
+pub use dft::{COEFFICIENT_BITS, DFT_FRAMES};
 pub use exact::ScaledConstant;
 pub use presets::{PRESETS, Preset};
-pub use scheme::{Irrational, SCHEMES, Scheme, scheme, scheme_names};
+pub use row::{Row, offset_weights};
+pub use scheme::{Irrational, SCHEMES, Scheme, SchemeOrigin, scheme, scheme_names};
+pub use step_angle::StepAngle;
 pub use word::Word;
 
 use crate::frames::Geometry;
@@ -39,8 +47,8 @@ pub struct Sensor {
 /// Modulation and phase stepping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modulation {
-    /// The row of [`SCHEMES`].
-    pub scheme: &'static Scheme,
+    /// How a phase is made of the raw frames: a row of [`SCHEMES`], a DFT, or a row of the specification's own.
+    pub scheme: Scheme,
     /// Modulation frequency, Hz, 10 kHz to 10 GHz.
     pub frequency_hz: f64,
     /// Raw frames accumulated for one phase step, 1 to 256.

@@ -10,7 +10,9 @@ use std::sync::Mutex;
 use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
-use vuris::spec::{Cordic, Modulation, Output, Pipeline, SCHEMES, Sensor, Specification};
+use vuris::spec::{
+    Cordic, Irrational, Modulation, Output, Pipeline, Row, SCHEMES, Scheme, Sensor, Specification, StepAngle,
+};
 use vuris::units::unambiguous_range_m;
 
 /// `preset` with a sensor of 12 x 9 pixels, and then as `change` says.
@@ -57,6 +59,49 @@ pub fn everything(pipeline: &Pipeline, seed: u64) -> Scenario {
     scenario
 }
 
+/// Rows of published algorithms that are not built in: name, step angles, weights of in-phase and quadrature sum for
+/// I_n = A cos(angle_n - phi) + B, and the irrational.
+pub const ROWS: [(&str, &str, &[i64], &[i64], Irrational); 5] = [
+    // tan phi = 2 (I4 - I2) / (2 I3 - I1 - I5) with the phase at the middle frame.
+    ("hariharan", "-1/2 -1/4 0 1/4 1/2", &[-1, 0, 2, 0, -1], &[0, -2, 0, 2, 0], Irrational::One),
+    ("schmit-creath", "-1/2 -1/4 0 1/4 1/2", &[-1, -2, 6, -2, -1], &[1, -4, 0, 4, -1], Irrational::One),
+    (
+        "de-groot",
+        "-3/4 -1/2 -1/4 0 1/4 1/2 3/4",
+        &[0, -4, 0, 8, 0, -4, 0],
+        &[1, 0, -7, 0, 7, 0, -1],
+        Irrational::One,
+    ),
+    // N + 1 frames with N = 3 and 4 (Surrel 1993): half of the first and of the last, and a cotangent.
+    ("three-plus-one", "0 1/3 2/3 1", &[3, -3, -3, 3], &[1, 3, -3, -1], Irrational::Sqrt3),
+    ("four-plus-one", "0 1/4 1/2 3/4 1", &[1, 0, -2, 0, 1], &[0, 2, 0, -2, 0], Irrational::One),
+];
+
+/// The scheme of a row of [`ROWS`], all its weights times `factor`.
+pub fn row(number: usize, factor: i64) -> Scheme {
+    let (name, angles, in_phase, quadrature, irrational) = ROWS[number];
+    let times = |weights: &[i64]| weights.iter().map(|weight| weight * factor).collect();
+    let row = Row {
+        name: name.to_owned(),
+        angles: angles.split(' ').map(|angle| StepAngle::parse(angle).unwrap()).collect(),
+        in_phase: times(in_phase),
+        quadrature: times(quadrature),
+        offset: None,
+        irrational,
+        reference: "test".to_owned(),
+    };
+    Scheme::of_row("test", row).unwrap()
+}
+
+/// Schemes of every kind: named, DFTs, rows with small weights and with wide ones.
+fn schemes() -> impl Strategy<Value = Scheme> {
+    prop_oneof![
+        (0..SCHEMES.len()).prop_map(|number| SCHEMES[number].clone()),
+        (3..=9_usize, 4..=18_u32).prop_map(|(frames, bits)| Scheme::dft(frames, bits).unwrap()),
+        (0..ROWS.len(), 1..=40_i64).prop_map(|(number, factor)| row(number, factor)),
+    ]
+}
+
 /// Specifications of every kind that the program accepts: all its fields, with small sensors and few frames.
 pub fn specifications() -> impl Strategy<Value = Specification> {
     let sensor = (2..=8_usize, 1..=6_usize, 8..=16_u32, 0.0..1.5_f64, 16..=100_u32).prop_map(
@@ -71,10 +116,9 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
             }
         },
     );
-    let modulation =
-        (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize).prop_map(|(scheme, decade, frames_per_step)| {
-            Modulation { scheme: &SCHEMES[scheme], frequency_hz: 10_f64.powf(decade), frames_per_step }
-        });
+    let modulation = (schemes(), 4.0..10.0_f64, 1..=3_usize).prop_map(|(scheme, decade, frames_per_step)| {
+        Modulation { scheme, frequency_hz: 10_f64.powf(decade), frames_per_step }
+    });
     let cordic = (4..=30_u32, 0..=8_u32, 1..=8_u32);
     // Bits of the distance, and the least amplitude as a part of the full scale (or none).
     let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64);
