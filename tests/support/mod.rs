@@ -59,9 +59,11 @@ pub fn everything(pipeline: &Pipeline, seed: u64) -> Scenario {
     scenario
 }
 
-/// Rows of published algorithms that are not built in: name, step angles, weights of in-phase and quadrature sum for
-/// I_n = A cos(angle_n - phi) + B, and the irrational.
-pub const ROWS: [(&str, &str, &[i64], &[i64], Irrational); 5] = [
+/// Name, step angles, weights of in-phase and quadrature sum for I_n = A cos(angle_n - phi) + B, and the irrational.
+type PublishedRow = (&'static str, &'static str, &'static [i64], &'static [i64], Irrational);
+
+/// Rows of published algorithms that are not built in.
+pub const ROWS: [PublishedRow; 5] = [
     // tan phi = 2 (I4 - I2) / (2 I3 - I1 - I5) with the phase at the middle frame.
     ("hariharan", "-1/2 -1/4 0 1/4 1/2", &[-1, 0, 2, 0, -1], &[0, -2, 0, 2, 0], Irrational::One),
     ("schmit-creath", "-1/2 -1/4 0 1/4 1/2", &[-1, -2, 6, -2, -1], &[1, -4, 0, 4, -1], Irrational::One),
