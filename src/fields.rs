@@ -93,6 +93,14 @@ impl<'a> Fields<'a> {
         if self.table.contains_key(field) { self.integer(field, allowed) } else { Ok(default) }
     }
 
+    /// True or false, or `default` where the field is absent.
+    pub fn flag_or(&self, field: &str, default: bool) -> Result<bool> {
+        match self.table.get(field) {
+            None => Ok(default),
+            Some(value) => value.as_bool().ok_or_else(|| self.refuse(field, "true or false")),
+        }
+    }
+
     /// A finite number within `allowed`; `unit` is said in a refusal.
     pub fn number(&self, field: &str, allowed: RangeInclusive<f64>, unit: &str) -> Result<f64> {
         self.table
@@ -129,6 +137,15 @@ impl<'a> Fields<'a> {
             .ok_or_else(|| self.refuse(field, expected))
     }
 
+    /// A list of whole numbers.
+    pub fn integers(&self, field: &str, expected: &str) -> Result<Vec<i64>> {
+        self.table
+            .get(field)
+            .and_then(Value::as_array)
+            .and_then(|values| values.iter().map(Value::as_integer).collect())
+            .ok_or_else(|| self.refuse(field, expected))
+    }
+
     /// A list of strings, empty where the field is absent.
     pub fn texts(&self, field: &str) -> Result<Vec<&'a str>> {
         let Some(value) = self.table.get(field) else { return Ok(Vec::new()) };
@@ -136,6 +153,11 @@ impl<'a> Fields<'a> {
             .as_array()
             .and_then(|values| values.iter().map(Value::as_str).collect())
             .ok_or_else(|| self.refuse(field, "a list of strings"))
+    }
+
+    /// Whether the field is a table.
+    pub fn is_table(&self, field: &str) -> bool {
+        self.table.get(field).is_some_and(Value::is_table)
     }
 
     /// Whether the field is there.

@@ -37,7 +37,9 @@ impl Coverage {
         let mut scenario = standard(&pipeline, seed);
         let (raw, _) = scene_sets(&pipeline, 1, Some(seed))?;
         scenario.segments.push(Segment::of_sets("simulated scene", &raw));
-        let points = progress::during("verilator: counting lines and bits", || coverage::measure(&pipeline, &scenario))?;
+        let points = progress::during("verilator: counting lines and bits", || {
+            coverage::measure(&pipeline, &scenario)
+        })?;
         let page = coverage::report(&format!("--spec {} --seed {seed}", shown_spec(&self.spec)), &points);
         say!("{}", page.trim_end());
         if let Some(folder) = &self.out {
@@ -45,13 +47,19 @@ impl Coverage {
         }
         let needless = coverage::needless(&points);
         if !needless.is_empty() {
-            return Err(Problem::at("src/proof/coverage/exclusion.rs", format_args!("{needless:?} exclude nothing"))
-                .expected("only exclusions that are needed")
-                .remedy("take the rows out of EXCLUSIONS"));
+            return Err(Problem::at(
+                "src/proof/coverage/exclusion.rs",
+                format_args!("{needless:?} exclude nothing"),
+            )
+            .expected("only exclusions that are needed")
+            .remedy("take the rows out of EXCLUSIONS"));
         }
         let [lines, bits] = [Kind::Line, Kind::Toggle].map(|kind| coverage::share(&points, kind).percent());
         say!();
-        say!("{}: {lines:.1} % of lines, {bits:.1} % of bits; more than {LEAST_PERCENT} % of each are required", pipeline.name);
+        say!(
+            "{}: {lines:.1} % of lines, {bits:.1} % of bits; more than {LEAST_PERCENT} % of each are required",
+            pipeline.name
+        );
         Ok(agreement(lines > LEAST_PERCENT && bits > LEAST_PERCENT))
     }
 }

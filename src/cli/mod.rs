@@ -12,6 +12,8 @@ mod progress;
 mod prove;
 mod scene;
 mod stimulus;
+mod sweep;
+mod synth;
 mod verify;
 
 pub use stimulus::{golden_of_preset, scene_sets};
@@ -37,7 +39,9 @@ enum Command {
     Process(process::Process),
     Explain(explain::Explain),
     Scene(scene::Scene),
+    Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
+    Synth(synth::Synth),
     Mutate(mutate::Mutate),
     Coverage(coverage::Coverage),
     Prove(prove::Prove),
@@ -53,7 +57,9 @@ impl Arguments {
             Command::Process(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
+            Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
+            Command::Synth(command) => command.run(),
             Command::Mutate(command) => command.run(),
             Command::Coverage(command) => command.run(),
             Command::Prove(command) => command.run(),

@@ -44,7 +44,10 @@ impl Mutate {
         }
         let percent = Tally::of(&trials).killed_percent();
         say!();
-        say!("{}: {percent:.1} % of the faults killed, more than {LEAST_PERCENT} % are required", pipeline.name);
+        say!(
+            "{}: {percent:.1} % of the faults killed, more than {LEAST_PERCENT} % are required",
+            pipeline.name
+        );
         Ok(agreement(percent > LEAST_PERCENT))
     }
 }

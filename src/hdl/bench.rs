@@ -1,11 +1,12 @@
 //! Test benches and vector files, from one table of what is compared.
 
 use super::Source;
-use super::golden::{Golden, StimulusWord};
+use super::control::Counters;
+use super::golden::{Golden, GoldenAccess, StimulusWord};
 use super::text::{banner, finished};
 use super::top::{result_bits, result_fields};
 use crate::artifact::Artifact;
-use crate::model::PixelRecord;
+use crate::model::{NextFrame, PixelRecord, next_frame};
 use crate::spec::{Pipeline, Word};
 use askama::Template;
 use std::fmt::Write;
@@ -24,8 +25,6 @@ pub const VECTORS: &[Vector] = &[
     Vector { name: "quadrature", word: |p| p.derived().quadrature, value: |r| r.sums.quadrature },
     Vector { name: "offset_sum", word: |p| p.derived().offset_sum, value: |r| r.sums.offset },
     Vector { name: "saturated", word: |_| Word::unsigned(1), value: |r| r.sums.saturated.into() },
-    Vector { name: "x", word: |p| p.derived().x, value: |r| r.vector.x },
-    Vector { name: "y", word: |p| p.derived().y, value: |r| r.vector.y },
     Vector { name: "phase", word: |p| p.derived().phase, value: |r| r.phase },
     Vector { name: "amplitude", word: |p| p.derived().amplitude, value: |r| r.amplitude },
     Vector { name: "offset", word: |p| p.derived().offset, value: |r| r.offset },
@@ -47,7 +46,7 @@ pub struct Stage {
 pub const STAGES: &[Stage] = &[
     Stage {
         name: "accumulator",
-        strobe: "dut.sums_valid && dut.advance",
+        strobe: "dut.sums_valid && dut.sums_taken",
         probes: &[
             ("in_phase", "dut.sums_in_phase"),
             ("quadrature", "dut.sums_quadrature"),
@@ -56,24 +55,19 @@ pub const STAGES: &[Stage] = &[
         ],
     },
     Stage {
-        name: "sums",
-        strobe: "dut.vector_valid && dut.advance",
-        probes: &[("x", "dut.vector_x"), ("y", "dut.vector_y")],
+        name: "angle",
+        strobe: "dut.angle_valid && dut.advance",
+        probes: &[("phase", "dut.angle_phase")],
     },
     Stage {
-        name: "cordic",
-        strobe: "dut.polar_valid && dut.advance",
-        probes: &[
-            ("phase", "dut.phase"),
-            ("amplitude", "dut.amplitude"),
-            ("offset", "dut.offset"),
-            ("usable", "dut.polar_usable"),
-        ],
-    },
-    Stage {
-        name: "distance",
+        name: "results",
         strobe: "dut.result_valid && dut.advance",
-        probes: &[("distance", "dut.distance")],
+        probes: &[
+            ("amplitude", "dut.result_amplitude"),
+            ("offset", "dut.result_offset"),
+            ("distance", "dut.result_distance"),
+            ("usable", "dut.result_usable"),
+        ],
     },
     Stage {
         name: "output",
@@ -171,6 +165,19 @@ struct Bench {
     stimulus: usize,
     epochs: usize,
     rests: usize,
+    announcements: usize,
+    announcement_lines: usize,
+    announcement_bits: u32,
+    step_bits: u32,
+    phase_step_bits: u32,
+    /// What the sequencer tells after a reset, as Verilog and as C++ have it.
+    first_announcement: String,
+    first_announcement_value: u64,
+    registers: bool,
+    accesses: usize,
+    access_lines: usize,
+    frequency_factor: String,
+    frequency_factor_value: u32,
     pixels: usize,
     width: usize,
     silence: u32,
@@ -239,6 +246,8 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
             VectorRow { name: vector.name, bits: word.bits }
         })
         .collect();
+    let (step_bits, phase_step_bits) = (Counters::new(source).step_bits, pipeline.modulation.phase_step_bits);
+    let first_announcement = announcement_word(source, next_frame(pipeline, 0));
     Bench {
         banner: String::new(),
         top: pipeline.top(),
@@ -250,6 +259,18 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
         stimulus: golden.stimulus.len(),
         epochs: golden.epochs.len(),
         rests: golden.rests.len(),
+        announcements: golden.announcements.len(),
+        announcement_lines: golden.announcements.len().max(1),
+        announcement_bits: 1 + step_bits + phase_step_bits,
+        step_bits,
+        phase_step_bits,
+        first_announcement: format!("{}'h{first_announcement:x}", 1 + step_bits + phase_step_bits),
+        first_announcement_value: first_announcement,
+        registers: pipeline.registers.axi4_lite,
+        accesses: golden.accesses.len(),
+        access_lines: golden.accesses.len().max(1),
+        frequency_factor: format!("32'd{}", pipeline.registers.frequency_factor),
+        frequency_factor_value: pipeline.registers.frequency_factor,
         pixels: pipeline.geometry().pixels(),
         width: pipeline.sensor.width,
         silence: pipeline.sensor.line_blanking_clocks,
@@ -259,11 +280,18 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
     }
 }
 
+/// `{first of a set, phase step, its phase}`, as the benches have it.
+fn announcement_word(source: &Source, next: NextFrame) -> u64 {
+    let phase_bits = source.pipeline.modulation.phase_step_bits;
+    let above = u64::from(next.first) << Counters::new(source).step_bits | next.step as u64;
+    above << phase_bits | next.phase as u64
+}
+
 /// The benches' files, for the vectors of `golden`.
 pub fn bench_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let mut bench = bench(source, golden);
     let mut file = |path: &str, purpose: &str, render: fn(&Bench) -> askama::Result<String>| {
-        bench.banner = banner(source, purpose);
+        bench.banner = banner(source.spec, purpose);
         Artifact::new(path, finished(render(&bench)))
     };
     vec![
@@ -280,7 +308,7 @@ pub fn bench_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
 }
 
 /// One value a line, in hexadecimal, as `$readmemh` reads it.
-fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
+pub(super) fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
     let digits = bits.div_ceil(4) as usize;
     let mut text = format!("// {note}\n");
     for value in values {
@@ -290,21 +318,32 @@ fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
     text
 }
 
+/// `values`, or `count` zeros where there are none: a file without a line makes simulators warn.
+fn padded(values: impl Iterator<Item = u64>, count: usize) -> impl Iterator<Item = u64> {
+    let mut values = values.peekable();
+    let zeros = if values.peek().is_some() { 0 } else { count };
+    values.chain(std::iter::repeat_n(0, zeros))
+}
+
 /// The vectors' files.
 pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let pipeline = source.pipeline;
     let note = |what: String| format!("Generated by `vuris generate --spec {}`: {what}", source.spec);
     let stimulus_note = note(
-        "{operation, end of line, start of set, start of frame, code[15:0]}; 9nnnn a pause of n clocks, a0000 reset, b0000 rest"
+        "{operation, end of line, start of set, start of frame, code[15:0]}; 9nnnn a pause of n clocks, a0000 reset, b0000 rest, c0000 access"
             .to_owned(),
     );
     let stimulus = golden.stimulus.iter().map(|&StimulusWord(word)| u64::from(word));
-    let epochs = golden.epochs.iter().map(|&records| records as u64);
+    let epochs = golden.epochs.iter().flat_map(|epoch| [epoch.records as u64, epoch.announcements as u64]);
     let mut artifacts = vec![
         Artifact::new("vectors/stimulus.hex", hex(&stimulus_note, 20, stimulus)),
         Artifact::new(
             "vectors/epochs.hex",
-            hex(&note("results due before each reset, and at the end".to_owned()), 32, epochs),
+            hex(
+                &note("results and announcements due before each reset, and at the end".to_owned()),
+                32,
+                epochs,
+            ),
         ),
     ];
     let rests =
@@ -313,6 +352,25 @@ pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
         "vectors/rests.hex",
         hex(&note("at each rest: results due so far, sets done, sets discarded".to_owned()), 32, rests),
     ));
+    let announcement_bits = 1 + Counters::new(source).step_bits + pipeline.modulation.phase_step_bits;
+    let announcements = golden.announcements.iter().map(|&next| announcement_word(source, next));
+    artifacts.push(Artifact::new(
+        "vectors/announcements.hex",
+        hex(
+            &note("what the sequencer tells, in order: {first of a set, phase step, its phase}".to_owned()),
+            announcement_bits,
+            padded(announcements, 1),
+        ),
+    ));
+    if pipeline.registers.axi4_lite {
+        let note = note(
+            "each access to a register: {write, okay, counter[3:0], strobes[3:0], address[7:0]}, written, read (or the frequency factor then)"
+                .to_owned(),
+        );
+        let words = golden.accesses.iter().flat_map(|access| access.words());
+        artifacts
+            .push(Artifact::new("vectors/accesses.hex", hex(&note, 32, padded(words, GoldenAccess::WORDS))));
+    }
     for vector in VECTORS {
         let word = (vector.word)(pipeline);
         let kind = if word.signed { "signed" } else { "unsigned" };

@@ -1,8 +1,8 @@
 //! Fragments of Verilog: literals, ranges, extensions, banners.
 
-use super::Source;
 use crate::spec::Word;
 use askama::Template;
+use std::fmt::Display;
 
 #[derive(Template)]
 #[template(path = "banner.v", escape = "none")]
@@ -12,8 +12,8 @@ struct Banner<'a> {
 }
 
 /// The first lines of a generated file.
-pub(super) fn banner(source: &Source, purpose: &str) -> String {
-    let banner = Banner { purpose, spec: source.spec };
+pub(super) fn banner(spec: &str, purpose: &str) -> String {
+    let banner = Banner { purpose, spec };
     finished(banner.render()).trim_end().to_owned()
 }
 
@@ -33,10 +33,31 @@ pub(super) fn range(bits: u32) -> String {
     format!("[{}:0]", bits - 1)
 }
 
+/// The range `[high:low]`.
+pub(super) fn slice(high: impl Display, low: impl Display) -> String {
+    format!("[{high}:{low}]")
+}
+
+/// The index `[place]`.
+pub(super) fn bit(place: impl Display) -> String {
+    format!("[{place}]")
+}
+
 /// An unsigned literal.
 pub(super) fn literal(bits: u32, value: i64) -> String {
     debug_assert!(Word::unsigned(bits).contains(value));
     format!("{bits}'d{value}")
+}
+
+/// A signed literal.
+pub(super) fn signed_literal(bits: u32, value: i64) -> String {
+    debug_assert!(Word::signed(bits).contains(value));
+    // The least value has no positive literal: its pattern is written.
+    match value {
+        0.. => format!("{bits}'sd{value}"),
+        _ if value == Word::signed(bits).min() => format!("{bits}'sh{:x}", Word::signed(bits).pattern(value)),
+        _ => format!("-{bits}'sd{}", -value),
+    }
 }
 
 /// `name` of `from` bits as one of `to` bits, zeros above.

@@ -2,10 +2,10 @@
 
 use super::accumulator::{Accumulator, Sums};
 use super::framing::Framing;
-use super::normaliser::normalise;
-use super::scaling::{Vector, scale};
+use super::registers::{Access, Answer, Registers};
+use super::sequencer::{NextFrame, next_frame};
 use super::stream::StreamEvent;
-use super::{amplitude, cordic, distance, offset, phase};
+use super::{amplitude, distance, offset, turn};
 use crate::spec::Pipeline;
 
 /// What the stages held for one pixel of one set.
@@ -13,8 +13,6 @@ use crate::spec::Pipeline;
 pub struct PixelRecord {
     /// Accumulator: the sums as they drain.
     pub sums: Sums,
-    /// Scaling: the vector.
-    pub vector: Vector,
     /// Phase, a fraction of a turn in the phase word.
     pub phase: i64,
     /// Amplitude, in its unit.
@@ -29,19 +27,15 @@ pub struct PixelRecord {
 
 /// A pixel's results from its sums.
 pub fn pixel(pipeline: &Pipeline, sums: Sums) -> PixelRecord {
-    let vector = scale(pipeline, sums);
-    let normalised = normalise(pipeline, vector);
-    let rotated = cordic(pipeline, normalised);
-    let phase = phase(pipeline, rotated.angle, normalised.octant, normalised.zero);
-    let amplitude = amplitude(pipeline, rotated.x, normalised.shift, normalised.zero);
+    let turned = turn(&pipeline.derived().angle, sums.in_phase, sums.quadrature);
+    let amplitude = amplitude(pipeline, turned.length, turned.shift, turned.zero);
     PixelRecord {
         sums,
-        vector,
-        phase,
+        phase: turned.phase,
         amplitude,
         offset: offset(pipeline, sums.offset),
-        distance: distance(pipeline, phase),
-        valid: !normalised.zero && amplitude >= pipeline.derived().minimum_amplitude,
+        distance: distance(pipeline, turned.phase),
+        valid: !turned.zero && amplitude >= pipeline.derived().minimum_amplitude,
     }
 }
 
@@ -51,17 +45,29 @@ pub struct PipelineModel<'a> {
     pipeline: &'a Pipeline,
     framing: Framing,
     accumulator: Accumulator<'a>,
+    registers: Registers<'a>,
+    announced: Option<NextFrame>,
 }
 
 impl<'a> PipelineModel<'a> {
     /// The core after reset.
     pub fn new(pipeline: &'a Pipeline) -> Self {
-        Self { pipeline, framing: Framing::new(pipeline), accumulator: Accumulator::new(pipeline) }
+        Self {
+            pipeline,
+            framing: Framing::new(pipeline),
+            accumulator: Accumulator::new(pipeline),
+            registers: Registers::new(pipeline),
+            announced: None,
+        }
     }
 
     /// Advances by one event; the pixels of a set, in order, where the event completes one.
     pub fn advance(&mut self, event: StreamEvent) -> Option<Vec<PixelRecord>> {
         let outcome = self.framing.advance(event);
+        self.announced = outcome.next.map(|frame| next_frame(self.pipeline, frame));
+        if event == StreamEvent::Reset {
+            self.registers = Registers::new(self.pipeline);
+        }
         let set = outcome
             .commit
             .then(|| self.accumulator.sums().iter().map(|&sums| pixel(self.pipeline, sums)).collect());
@@ -69,6 +75,17 @@ impl<'a> PipelineModel<'a> {
             self.accumulator.add(slot, beat.code);
         }
         set
+    }
+
+    /// What the last event made the sequencer tell the modulation hardware, where it did; after a reset that is the set's first
+    /// frame, until something else is told.
+    pub fn announced(&self) -> Option<NextFrame> {
+        self.announced
+    }
+
+    /// The answer of the register block to `access`.
+    pub fn answer(&mut self, access: Access) -> Answer {
+        self.registers.answer(access)
     }
 
     /// Complete and discarded sets since reset.

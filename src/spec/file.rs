@@ -1,7 +1,10 @@
 //! The specification's TOML file: reading, checking and writing.
 
+use super::angle::{read_cordic, write_cordic};
+use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Cordic, Modulation, Output, PRESETS, Pipeline, Sensor, Specification, Word, refused, scheme, scheme_names,
+    Modulation, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order, refused,
+    scheme_file, sequence,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -9,15 +12,13 @@ use std::path::Path;
 
 const FORMAT: &str = "vuris-pipeline/1";
 
-/// Reads the file at `path`.
-pub(super) fn read(path: &str) -> Result<Pipeline> {
-    let text = read_text(Path::new(path)).map_err(|error| {
-        let presets = PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
+/// The text of the file at `path`; `presets` are the names that would have done, too.
+pub(super) fn read(path: &str, presets: &str) -> Result<String> {
+    read_text(Path::new(path)).map_err(|error| {
         Problem::io(Path::new(path), "read the specification", &error)
             .expected(format_args!("a file, or one of the presets {presets}"))
             .remedy("`vuris explain --spec vuris --toml > my.toml` writes a file to start from")
-    })?;
-    Pipeline::parse(path, &text)
+    })
 }
 
 /// The text of a regular file of a plausible size: a device would be read for ever.
@@ -37,7 +38,7 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     let table = fields::parse(source, text)?;
     let top = Fields::top(source, &table);
-    top.only(&["format", "name", "sensor", "modulation", "cordic", "output"])?;
+    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers"])?;
     let expected_format = format!("\"{FORMAT}\"");
     if top.text("format", &expected_format)? != FORMAT {
         return Err(top.refuse("format", &expected_format));
@@ -57,26 +58,32 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let modulation = top.section("modulation")?;
-    modulation.only(&["scheme", "frequency_hz", "frames_per_step"])?;
-    let one_of = format!("one of {}", scheme_names());
+    modulation.only(&[
+        "scheme",
+        "frequency_hz",
+        "frames_per_step",
+        "frames",
+        "coefficient_bits",
+        "order",
+        "phase_step_bits",
+    ])?;
+    let scheme = scheme_file::read(source, &modulation)?;
     let modulation = Modulation {
-        scheme: scheme(modulation.text("scheme", &one_of)?)
-            .ok_or_else(|| modulation.refuse("scheme", &one_of))?,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
+        order: order(&modulation, &scheme)?,
+        scheme,
+        phase_step_bits: modulation.integer_or("phase_step_bits", 2..=24, DEFAULT_PHASE_STEP_BITS.into())?
+            as u32,
     };
 
     let cordic = top.section("cordic")?;
-    cordic.only(&["iterations", "vector_guard_bits", "angle_guard_bits"])?;
-    let cordic = Cordic {
-        iterations: cordic.integer("iterations", 4..=30)? as u32,
-        vector_guard_bits: cordic.integer("vector_guard_bits", 0..=8)? as u32,
-        angle_guard_bits: cordic.integer("angle_guard_bits", 1..=8)? as u32,
-    };
+    let cordic = read_cordic(&cordic)?;
 
     let output = top.section("output")?;
     output.only(&[
         "phase_bits",
+        "amplitude",
         "amplitude_fraction_bits",
         "offset_fraction_bits",
         "distance_unit_m",
@@ -84,24 +91,58 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     ])?;
     let output = Output {
         phase_bits: output.integer("phase_bits", 8..=24)? as u32,
+        amplitude: output.flag_or("amplitude", true)?,
         amplitude_fraction_bits: output.integer("amplitude_fraction_bits", 0..=8)? as u32,
         offset_fraction_bits: output.integer("offset_fraction_bits", 0..=8)? as u32,
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
         minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
     };
-    Ok(Specification { name, sensor, modulation, cordic, output })
+    Ok(Specification { name, sensor, modulation, cordic, output, registers: registers(&top)? })
 }
 
-const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
+/// The order of the phase steps, where there is one; [`check`] sees whether it is the scheme's.
+fn order(modulation: &Fields, scheme: &Scheme) -> Result<Option<Vec<usize>>> {
+    if !modulation.has("order") {
+        return Ok(None);
+    }
+    let expected = "a list of the scheme's phase steps, whole numbers from 0 on, such as [0, 3, 1, 4, 2]";
+    let numbers = modulation.numbers("order", expected)?;
+    let whole = numbers.iter().all(|number| number.fract() == 0.0 && (0.0..65_536.0).contains(number));
+    if !whole || numbers.is_empty() {
+        return Err(modulation.refuse("order", expected));
+    }
+    Ok(normalised_order(scheme, numbers.into_iter().map(|number| number as usize).collect()))
+}
+
+/// The register block: none where the section is absent.
+fn registers(top: &Fields) -> Result<RegisterBlock> {
+    let Some(registers) = top.optional_section("registers")? else {
+        return Ok(RegisterBlock::default());
+    };
+    registers.only(&["axi4_lite", "frequency_factor"])?;
+    Ok(RegisterBlock {
+        axi4_lite: registers.flag_or("axi4_lite", true)?,
+        frequency_factor: registers.integer_or("frequency_factor", 0..=u32::MAX.into(), 0)? as u32,
+    })
+}
+
+pub(super) const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
+
+/// Refuses a name that cannot begin the names of Verilog modules.
+pub(super) fn check_name(source: &str, name: &str) -> Result<()> {
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
+    if begins_well && name.chars().all(letter) && name.len() <= 32 {
+        Ok(())
+    } else {
+        Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE))
+    }
+}
 
 /// What only shows between fields, and what a specification made in code could get wrong.
 pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
     let Specification { name, sensor, .. } = specification;
-    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
-    if !begins_well || !name.chars().all(letter) || name.len() > 32 {
-        return Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE));
-    }
+    check_name(source, name)?;
     for (field, value, allowed) in
         [("sensor.width", sensor.width, 2..=4096), ("sensor.height", sensor.height, 1..=4096)]
     {
@@ -133,39 +174,44 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
         return Err(refused(source, "modulation.frames_per_step", specification.modulation.frames_per_step)
             .expected("1 to 256"));
     }
-    Ok(())
+    sequence::check(source, specification)
 }
 
 /// The text of a file that reads as `specification`.
 pub(super) fn write(specification: &Specification) -> String {
-    let Specification { name, sensor, modulation, cordic, output } = specification;
+    let Specification { name, sensor, modulation, cordic, output, registers } = specification;
     format!(
         "format = \"{FORMAT}\"\n\
          name = \"{name}\"\n\
          \n[sensor]\n\
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
-         scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
-         \n[cordic]\n\
-         iterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\n\
-         \n[output]\n\
-         phase_bits = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
-         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n",
+         {}frequency_hz = {:?}\nframes_per_step = {}\n\
+         order = {:?}\nphase_step_bits = {}\n{}\
+         \n{}\n[output]\n\
+         phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
+         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
+         \n[registers]\n\
+         axi4_lite = {}\nfrequency_factor = {}\n",
         sensor.width,
         sensor.height,
         sensor.adc_bits,
         sensor.saturation_dn,
         sensor.line_blanking_clocks,
-        modulation.scheme.name,
+        scheme_file::fields(&modulation.scheme),
         modulation.frequency_hz,
         modulation.frames_per_step,
-        cordic.iterations,
-        cordic.vector_guard_bits,
-        cordic.angle_guard_bits,
+        modulation.steps_in_order(),
+        modulation.phase_step_bits,
+        scheme_file::table(&modulation.scheme),
+        write_cordic(cordic),
         output.phase_bits,
+        output.amplitude,
         output.amplitude_fraction_bits,
         output.offset_fraction_bits,
         output.distance_unit_m,
         output.minimum_amplitude_dn,
+        registers.axi4_lite,
+        registers.frequency_factor,
     )
 }

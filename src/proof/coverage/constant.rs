@@ -27,10 +27,13 @@ pub(super) fn bits(source: &Source, folder: &Path) -> Result<Constants> {
         artifacts.iter().map(|file| file.path.as_str()).filter(|path| path.ends_with(".v")).collect();
     let top = source.pipeline.top();
     // Every instance leaves a mark of its module, before the hierarchy goes.
-    let mut script = format!("read_verilog {}\nhierarchy -check -top {top}\nproc\nopt_clean\n", files.join(" "));
+    let mut script =
+        format!("read_verilog {}\nhierarchy -check -top {top}\nproc\nopt_clean\n", files.join(" "));
     for file in &files {
         let module = file.trim_start_matches("rtl/").trim_end_matches(".v");
-        script += &format!("select {module} $paramod*{module}\\\\* $paramod\\\\{module}\nadd -wire {MARK}{module} 1\nselect -clear\n");
+        script += &format!(
+            "select {module} $paramod*{module}\\\\* $paramod\\\\{module}\nadd -wire {MARK}{module} 1\nselect -clear\n"
+        );
     }
     script += "flatten\nopt -full\nopt_clean\nwrite_json constants.json\n";
     yosys(folder, &script)?;
@@ -54,9 +57,10 @@ fn read(json: &str) -> Constants {
             name = net;
         }
     }
-    let split = |net: &'_ str| net.rfind('.').map_or((String::new(), net.to_owned()), |dot| {
-        (net[..dot].to_owned(), net[dot + 1..].to_owned())
-    });
+    let split = |net: &'_ str| {
+        net.rfind('.')
+            .map_or((String::new(), net.to_owned()), |dot| (net[..dot].to_owned(), net[dot + 1..].to_owned()))
+    };
     let modules: BTreeMap<String, String> = nets
         .iter()
         .filter_map(|(net, _)| {
@@ -93,7 +97,12 @@ mod tests {
                     \"bits\": [ \"x\" ],\n },\n \"u_a.w\": {\n \"bits\": [ \"0\", 5, \"1\" ],\n },\n \"u_b.w\": {\n \
                     \"bits\": [ \"0\", \"0\", 7 ],\n }\n } }";
         let constants = read(json);
-        let point = |bit| Point { module: "m".to_owned(), kind: Kind::Toggle, line: 1, what: format!("w[{bit}]:0->1") };
+        let point = |bit| Point {
+            module: "m".to_owned(),
+            kind: Kind::Toggle,
+            line: 1,
+            what: format!("w[{bit}]:0->1"),
+        };
         let found: Vec<bool> = (0..4).map(|bit| constants.contains(&point(bit))).collect();
         assert_eq!(found, [true, false, false, false]);
     }

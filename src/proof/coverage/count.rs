@@ -69,13 +69,17 @@ mod tests {
     #[test]
     fn counts_of_instances_add_up_and_the_bench_does_not_count() {
         let line = |file: &str, instance: &str, count: u32| {
-            format!("C '\u{1}f\u{2}{file}\u{1}l\u{2}7\u{1}n\u{2}3\u{1}page\u{2}v_toggle/m\u{1}o\u{2}a_q[12]:0->1\u{1}h\u{2}{instance}' {count}\n")
+            format!(
+                "C '\u{1}f\u{2}{file}\u{1}l\u{2}7\u{1}n\u{2}3\u{1}page\u{2}v_toggle/m\u{1}o\u{2}a_q[12]:0->1\u{1}h\u{2}{instance}' {count}\n"
+            )
         };
         let mut points = Vec::new();
-        let text = line("rtl/m.v", "top.a", 2) + &line("rtl/m.v", "top.b", 3) + &line("tb/bench_taps.v", "top", 9);
+        let text =
+            line("rtl/m.v", "top.a", 2) + &line("rtl/m.v", "top.b", 3) + &line("tb/bench_taps.v", "top", 9);
         add(&mut points, &text);
         add(&mut points, &line("rtl/m.v", "top.a", 1));
-        let point = Point { module: "m".to_owned(), kind: Kind::Toggle, line: 7, what: "a_q[12]:0->1".to_owned() };
+        let point =
+            Point { module: "m".to_owned(), kind: Kind::Toggle, line: 7, what: "a_q[12]:0->1".to_owned() };
         assert_eq!((point.signal(), point.bit()), ("a_q", 12));
         assert_eq!(points, [(point, 6)]);
     }

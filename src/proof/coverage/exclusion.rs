@@ -13,7 +13,8 @@ pub struct Exclusion {
     pub reason: &'static str,
 }
 
-const LONG: &str = "a counter of 32 bits: a simulation ends long before (`vuris mutate` starts it shortly before its wrap)";
+const LONG: &str =
+    "a counter of 32 bits: a simulation ends long before (`vuris mutate` starts it shortly before its wrap)";
 
 /// All of them. A row that excludes nothing any more fails the measurement.
 pub const EXCLUSIONS: &[Exclusion] = &[

@@ -55,8 +55,8 @@ pub fn measure(pipeline: &Pipeline, scenario: &Scenario) -> Result<Vec<Covered>>
     }
     let constants = constant::bits(&source, folder)?;
     let covered = points.into_iter().map(|(point, count)| {
-        let excluded =
-            if constants.contains(&point) { Some(CONSTANT) } else { exclusion::reason(&point) }.filter(|_| count == 0);
+        let excluded = if constants.contains(&point) { Some(CONSTANT) } else { exclusion::reason(&point) }
+            .filter(|_| count == 0);
         Covered { point, count, excluded }
     });
     Ok(covered.collect())
@@ -64,12 +64,21 @@ pub fn measure(pipeline: &Pipeline, scenario: &Scenario) -> Result<Vec<Covered>>
 
 fn build(folder: &Path) -> Result<()> {
     let mut command = Verilator::find()?.command();
-    command.current_dir(folder).args(["--coverage-line", "--coverage-toggle", "--coverage-max-width", "65536"]);
+    command.current_dir(folder).args([
+        "--coverage-line",
+        "--coverage-toggle",
+        "--coverage-max-width",
+        "65536",
+    ]);
     command.args(["--cc", "--exe", "--build", "-j", "2", "-Wno-fatal", "-O3", "--x-assign", "0"]);
     command.args(["--top-module", "bench_taps", "-CFLAGS", "-O1", "-Mdir", "build", "-o", "simulation"]);
     command.args(["-f", "rtl/files.f", "tb/bench_taps.v", "tb/harness.cpp"]);
     let (success, text) = output(&mut command)?;
-    if success { Ok(()) } else { Err(Problem::in_file(folder, format_args!("verilator cannot build it:\n{text}"))) }
+    if success {
+        Ok(())
+    } else {
+        Err(Problem::in_file(folder, format_args!("verilator cannot build it:\n{text}")))
+    }
 }
 
 /// One run; the text of its counts.

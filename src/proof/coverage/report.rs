@@ -66,7 +66,8 @@ pub fn report(command: &str, points: &[Covered]) -> String {
     text += "\n## Excluded\n\n";
     text += &listed(points, |covered| covered.excluded);
     text += "\n## Not met\n\n";
-    text += &listed(points, |covered| (covered.count == 0 && covered.excluded.is_none()).then_some("not met"));
+    text +=
+        &listed(points, |covered| (covered.count == 0 && covered.excluded.is_none()).then_some("not met"));
     text
 }
 
@@ -84,11 +85,15 @@ fn listed(points: &[Covered], why: impl Fn(&Covered) -> Option<&'static str>) ->
     if rows.is_empty() {
         return "Nothing.\n".to_owned();
     }
-    rows.iter().map(|((module, what, reason), count)| format!("- {module}: `{what}`, {count} points: {reason}\n")).collect()
+    rows.iter()
+        .map(|((module, what, reason), count)| format!("- {module}: `{what}`, {count} points: {reason}\n"))
+        .collect()
 }
 
 /// Rows of [`EXCLUSIONS`] that exclude nothing in `points`: they have to go.
 pub fn needless(points: &[Covered]) -> Vec<&'static str> {
-    let needed = |row: &&super::Exclusion| points.iter().any(|covered| covered.excluded.is_some() && row.covers(&covered.point));
+    let needed = |row: &&super::Exclusion| {
+        points.iter().any(|covered| covered.excluded.is_some() && row.covers(&covered.point))
+    };
     EXCLUSIONS.iter().filter(|row| !needed(row)).map(|row| row.signal).collect()
 }

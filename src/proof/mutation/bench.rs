@@ -41,7 +41,8 @@ impl<'a> Bench<'a> {
             }
             for harness in artifacts.iter_mut().filter(|artifact| late && artifact.path == "tb/harness.cpp") {
                 for counter in ["sets_done_o", "sets_discarded_o", "stall_clocks_o"] {
-                    let (shown, meant) = (format!("top->{counter}"), format!("(top->{counter} + {LATE_COUNTS}u)"));
+                    let (shown, meant) =
+                        (format!("top->{counter}"), format!("(top->{counter} + {LATE_COUNTS}u)"));
                     harness.text = harness.text.replace(&shown, &meant);
                 }
             }

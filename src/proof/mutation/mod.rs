@@ -18,11 +18,11 @@ pub use mutant::Mutant;
 pub use report::{Tally, report};
 
 use super::{small, stimulus};
-use bench::Bench;
-use netlist::Netlist;
 use crate::hdl::{Golden, Source};
 use crate::problem::{Problem, Result};
 use crate::spec::Pipeline;
+use bench::Bench;
+use netlist::Netlist;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -58,7 +58,11 @@ pub struct Trial {
 }
 
 /// Runs the campaign on `pipeline` with a small sensor; `progress` is told how many of how many are done.
-pub fn run(pipeline: &Pipeline, campaign: Campaign, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Vec<Trial>> {
+pub fn run(
+    pipeline: &Pipeline,
+    campaign: Campaign,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Vec<Trial>> {
     let pipeline = small(pipeline)?;
     let source = Source { pipeline: &pipeline, spec: "small" };
     let temporary = || {
@@ -96,7 +100,10 @@ pub fn run(pipeline: &Pipeline, campaign: Campaign, progress: &(dyn Fn(usize, us
 }
 
 /// Does `work` for every item on all cores; the results in the items' order, or the first problem.
-fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(usize, &T) -> Result<R> + Sync) -> Result<Vec<R>> {
+fn in_parallel<T: Sync, R: Send>(
+    items: &[T],
+    work: impl Fn(usize, &T) -> Result<R> + Sync,
+) -> Result<Vec<R>> {
     let next = AtomicUsize::new(0);
     let results = Mutex::new(Vec::with_capacity(items.len()));
     let workers = std::thread::available_parallelism().map_or(1, usize::from);

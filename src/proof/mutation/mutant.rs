@@ -1,6 +1,6 @@
 //! Mutants: one bit of one cell of the netlist, forced, inverted or tied to another bit. Yosys lists all; a seed draws some.
 
-use crate::hdl::MODULES;
+use crate::hdl::module_nouns;
 use crate::problem::{Problem, Result};
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
@@ -81,8 +81,9 @@ impl Mutant {
         let Some((from, to)) = self.place.split_once(':').and_then(|(_, span)| span.split_once('-')) else {
             return "memory";
         };
-        let position =
-            |at: &str| at.split_once('.').and_then(|(line, column)| Some((line.parse().ok()?, column.parse().ok()?)));
+        let position = |at: &str| {
+            at.split_once('.').and_then(|(line, column)| Some((line.parse().ok()?, column.parse().ok()?)))
+        };
         let (Some((line, first)), Some((last_line, end))) = (position(from), position(to)) else { return "" };
         let (line, first, last_line, end): (usize, usize, usize, usize) = (line, first, last_line, end);
         let row = text.lines().nth(line.saturating_sub(1)).unwrap_or("");
@@ -100,7 +101,12 @@ impl std::fmt::Display for Mutant {
 }
 
 /// Draws `per_module` mutants of each module from Yosys' `list`, as evenly as can be over the places of its source.
-pub(super) fn draw(list: &str, prefix: &str, per_module: usize, random: &mut ChaCha8Rng) -> Result<Vec<Mutant>> {
+pub(super) fn draw(
+    list: &str,
+    prefix: &str,
+    per_module: usize,
+    random: &mut ChaCha8Rng,
+) -> Result<Vec<Mutant>> {
     let mut places: BTreeMap<String, BTreeMap<String, Vec<Mutant>>> = BTreeMap::new();
     for mutant in list.lines().filter_map(|line| Mutant::parse(line, prefix)) {
         let module = places.entry(mutant.noun.clone()).or_default();
@@ -109,7 +115,7 @@ pub(super) fn draw(list: &str, prefix: &str, per_module: usize, random: &mut Cha
     if places.is_empty() {
         return Err(Problem::at("yosys", "lists no mutants").expected("lines `mutate -mode … -cell …`"));
     }
-    let order = |noun: &str| MODULES.iter().position(|module| module.noun == noun);
+    let order = |noun: &str| module_nouns().position(|known| known == noun);
     let mut modules: Vec<_> = places.into_iter().collect();
     modules.sort_by_key(|(noun, _)| order(noun).unwrap_or(usize::MAX));
     let mut drawn = Vec::new();

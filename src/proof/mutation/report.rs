@@ -2,7 +2,7 @@
 
 use super::explained::explanation;
 use super::{Campaign, DEPTH, Trial, Verdict};
-use crate::hdl::MODULES;
+use crate::hdl::module_nouns;
 use std::fmt::Write;
 
 /// Numbers of a module, or of all.
@@ -43,7 +43,10 @@ impl Tally {
 
     fn row(self, name: &str) -> String {
         let Self { mutants, killed, equivalent, survived } = self;
-        format!("| {name} | {mutants} | {killed} | {equivalent} | {survived} | {:.1} % |\n", self.killed_percent())
+        format!(
+            "| {name} | {mutants} | {killed} | {equivalent} | {survived} | {:.1} % |\n",
+            self.killed_percent()
+        )
     }
 }
 
@@ -57,14 +60,12 @@ pub fn report(spec: &str, campaign: Campaign, trials: &[Trial]) -> String {
          to be no fault, by induction over {DEPTH} clocks on the instance around it. The last column is killed / not equivalent.\n\n\
          | module | mutants | killed | equivalent | survived | killed of faults |\n| --- | ---: | ---: | ---: | ---: | ---: |\n"
     );
-    let nouns = MODULES.iter().map(|module| module.noun).chain(["pipeline"]);
+    // Modules of other architectures have no mutants here, and are left out.
+    let present = |noun: &&str| trials.iter().any(|trial| trial.mutant.noun == **noun);
+    let nouns = module_nouns().chain(["pipeline"]).filter(present);
     for noun in nouns {
         let tally = Tally::of(trials.iter().filter(|trial| trial.mutant.noun == noun));
-        text += &match tally.mutants {
-            // Nothing but instances of others: its wiring shows in their mutants.
-            0 => format!("| {noun} | no cells of its own | | | | |\n"),
-            _ => tally.row(noun),
-        };
+        text += &tally.row(noun);
     }
     text += &Tally::of(trials).row("**all**");
     text += "\n## Survivors\n\n";

@@ -1,0 +1,166 @@
+//! The angle unit's modules: for every architecture those that it is made of.
+
+mod bench;
+mod folded;
+mod iterative;
+mod normaliser;
+mod phase;
+mod unrolled;
+
+use super::angle_artifacts;
+use super::poly;
+use super::text::range;
+use crate::artifact::Artifact;
+use crate::spec::{AngleCore, AngleUnit, Architecture};
+use askama::Template;
+
+pub use bench::angle_stimulus;
+
+/// What the angle unit's templates are rendered from.
+#[derive(Debug, Clone, Copy)]
+pub struct AngleSource<'a> {
+    /// What all module names begin with.
+    pub prefix: &'a str,
+    /// The unit.
+    pub unit: &'a AngleUnit,
+    /// Bits of what travels beside the vector, 1 or more.
+    pub meta_bits: u32,
+}
+
+/// A module of the angle unit.
+pub(super) struct AngleModule {
+    /// Its noun.
+    pub noun: &'static str,
+    /// One sentence, the first line of its file.
+    pub purpose: &'static str,
+    /// Whether an architecture has it.
+    pub belongs: fn(Architecture) -> bool,
+    /// Its text, after a banner.
+    pub render: fn(&AngleSource, String) -> askama::Result<String>,
+}
+
+fn is_pipelined_cordic(architecture: Architecture) -> bool {
+    matches!(architecture, Architecture::Unrolled | Architecture::Folded { .. })
+}
+
+fn is_tables(architecture: Architecture) -> bool {
+    architecture == Architecture::Tables
+}
+
+/// All modules, those that others are made of first.
+pub(super) const ANGLE_MODULES: &[AngleModule] = &[
+    AngleModule {
+        noun: "normaliser",
+        purpose: "Quadrant fold and leading-zero shift.",
+        belongs: is_pipelined_cordic,
+        render: normaliser::normaliser,
+    },
+    AngleModule {
+        noun: "cordic",
+        purpose: "CORDIC in vectoring mode.",
+        belongs: is_pipelined_cordic,
+        render: |source, banner| match source.unit.architecture {
+            Architecture::Folded { stages, rounds } => folded::cordic(source, stages, rounds, banner),
+            _ => unrolled::cordic(source, banner),
+        },
+    },
+    AngleModule {
+        noun: "phase",
+        purpose: "The phase of a turned vector, its fold undone.",
+        belongs: is_pipelined_cordic,
+        render: phase::phase,
+    },
+    AngleModule {
+        noun: "poly_multiplier",
+        purpose: "A multiplier with its registers.",
+        belongs: is_tables,
+        render: poly::multiplier,
+    },
+    AngleModule {
+        noun: "poly_octant",
+        purpose: "Octant fold and leading-zero shift.",
+        belongs: is_tables,
+        render: poly::octant,
+    },
+    AngleModule {
+        noun: "poly_reciprocal",
+        purpose: "The reciprocal of the larger coordinate.",
+        belongs: is_tables,
+        render: poly::reciprocal,
+    },
+    AngleModule {
+        noun: "poly_arctangent",
+        purpose: "The arctangent of a ratio.",
+        belongs: is_tables,
+        render: poly::arctangent,
+    },
+    AngleModule {
+        noun: "angle",
+        purpose: "The angle unit: from a vector to its phase.",
+        belongs: |_| true,
+        render: |source, banner| match source.unit.architecture {
+            Architecture::Iterative => iterative::angle(source, banner),
+            Architecture::Tables => poly::angle(source, banner),
+            _ => angle(source, banner),
+        },
+    },
+];
+
+#[derive(Template)]
+#[template(path = "angle.v", escape = "none")]
+struct Angle<'a> {
+    banner: String,
+    prefix: &'a str,
+    folded: bool,
+    quarters: bool,
+    with_length: bool,
+    latency: u32,
+    clocks_a_vector: u32,
+    x_bits: u32,
+    y_bits: u32,
+    bits_range: String,
+    phase_bits: u32,
+    length_bits: u32,
+    shift_bits: u32,
+    shift_range: String,
+    length_range: String,
+    directions_range: String,
+    meta_bits: u32,
+}
+
+fn angle(source: &AngleSource, banner: String) -> askama::Result<String> {
+    let unit = source.unit;
+    let length_bits = unit.length_word().bits;
+    Angle {
+        banner,
+        prefix: source.prefix,
+        folded: matches!(unit.architecture, Architecture::Folded { .. }),
+        quarters: unit.sector_bits == 2,
+        with_length: unit.with_length(),
+        latency: unit.latency_clocks(),
+        clocks_a_vector: unit.clocks_a_vector(0),
+        x_bits: unit.x_bits,
+        y_bits: unit.y_bits,
+        bits_range: range(unit.magnitude_bits),
+        phase_bits: unit.phase_bits,
+        length_bits,
+        shift_bits: unit.shift_bits(),
+        shift_range: range(unit.shift_bits()),
+        length_range: range(length_bits),
+        directions_range: range(unit.iterations + 1),
+        meta_bits: source.meta_bits,
+    }
+    .render()
+}
+
+/// Everything that `vuris generate` writes for an angle unit by itself; `vectors` drive its bench.
+pub fn angle_core_artifacts(core: &AngleCore, spec: &str, vectors: &[(i64, i64)]) -> Vec<Artifact> {
+    let prefix = core.prefix();
+    let source = AngleSource { prefix: &prefix, unit: &core.unit, meta_bits: bench::META_BITS };
+    let mut artifacts = angle_artifacts(&source, spec);
+    let note =
+        format!("# Generated by `vuris generate --spec {spec}`: the specification, defaults written out.\n");
+    artifacts.push(Artifact::new("rtl/specification.toml", note + &core.to_toml()));
+    artifacts.extend(bench::artifacts(core, spec, vectors));
+    artifacts
+}
