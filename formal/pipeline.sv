@@ -44,7 +44,8 @@ module properties (
     rst_n && waited && offer != offered,                            // 1 a result is stable while it waits
     rst_n && waited && !m_axis_tvalid                               // 0 a result is offered until taken
   };
-  wire [0:0] seen = {
+  wire [1:0] seen = {
+    rst_n && waited,              // 1 a result waits
     rst_n && stall_clocks_o == 3  // 0 the input stalls
   };
   assign watched = `WATCH;

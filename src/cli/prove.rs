@@ -4,7 +4,6 @@ use super::print::say;
 use super::{agreement, progress};
 use crate::problem::{Problem, Result};
 use crate::proof::formal::{self, FAULTS, PROOFS};
-use crate::proof::small;
 use crate::spec::Pipeline;
 use clap::Args;
 use std::process::ExitCode;
@@ -15,7 +14,7 @@ pub(super) struct Prove {
     /// Specification: a preset or a TOML file; its sensor is replaced by one of a few pixels
     #[arg(long, value_name = "FILE|PRESET")]
     spec: String,
-    /// Only this proof: stream, framing, sums, pipeline
+    /// Only proofs whose names begin so: stream, framing, sums-0 to sums-3, pipeline, folded, iterative
     #[arg(long, value_name = "NAME")]
     proof: Option<String>,
     /// Leave out the designs with a fault
@@ -25,8 +24,8 @@ pub(super) struct Prove {
 
 impl Prove {
     pub(super) fn run(self) -> Result<ExitCode> {
-        let pipeline = small(&Pipeline::named(&self.spec)?)?;
-        let chosen = |name: &str| self.proof.as_deref().is_none_or(|proof| proof == name);
+        let pipeline = Pipeline::named(&self.spec)?;
+        let chosen = |name: &str| self.proof.as_deref().is_none_or(|proof| name.starts_with(proof));
         if !PROOFS.iter().any(|proof| chosen(proof.name)) {
             let names: Vec<&str> = PROOFS.iter().map(|proof| proof.name).collect();
             return Err(Problem::at("--proof", self.proof.unwrap_or_default()).expected(names.join(", ")));
@@ -44,7 +43,13 @@ impl Prove {
             for fault in FAULTS.iter().filter(|fault| fault.proof == proof.name && !self.no_faults) {
                 let findings = progress::during(fault.name, || formal::prove(&pipeline, proof, Some(fault)))?;
                 match findings.iter().find(|finding| !finding.holds()) {
-                    Some(seen) => say!("  seen:  {}: {}: {} violated {}", fault.noun, fault.name, seen.what, seen.answer),
+                    Some(seen) => say!(
+                        "  seen:  {}: {}: {} violated {}",
+                        fault.noun,
+                        fault.name,
+                        seen.what,
+                        seen.answer
+                    ),
                     None => say!("  MISSED: {}: {}", fault.noun, fault.name),
                 }
                 agrees &= findings.iter().any(|finding| !finding.holds());

@@ -1,6 +1,9 @@
 //! The proofs: property files, and what each needs to know of a specification.
 
-use crate::hdl::{result_bits, result_fields};
+use super::equal;
+use crate::artifact::Artifact;
+use crate::hdl::{Source, result_bits, result_fields, rtl_artifacts};
+use crate::problem::Result;
 use crate::spec::{Pipeline, Word};
 use std::fmt::Write;
 
@@ -13,6 +16,8 @@ pub struct Proof {
     pub purpose: &'static str,
     /// The file.
     pub(super) text: &'static str,
+    /// The Verilog around which it stands.
+    pub(super) rtl: fn(&Pipeline) -> Result<Vec<Artifact>>,
     /// Macros that come before it.
     pub(super) definitions: fn(&Pipeline) -> String,
     /// Yosys commands that change parameters of modules that the file does not instantiate itself.
@@ -29,7 +34,10 @@ pub const PROOFS: &[Proof] = &[
         name: "stream",
         purpose: "the stream register keeps the rules of AXI4-Stream, loses, repeats and reorders nothing, and holds two words at most",
         text: include_str!("../../../formal/stream.sv"),
-        definitions: |pipeline| define("STREAM_REGISTER", format_args!("{}_stream_register", pipeline.prefix())),
+        rtl: core,
+        definitions: |pipeline| {
+            define("STREAM_REGISTER", format_args!("{}_stream_register", pipeline.prefix()))
+        },
         setup: nothing,
         bound_clocks: None,
         cover_clocks: 30,
@@ -38,6 +46,7 @@ pub const PROOFS: &[Proof] = &[
         name: "framing",
         purpose: "a set that drains is whole and in sequence, whatever came before; counters; no sum is replaced before it has drained",
         text: include_str!("../../../formal/framing.sv"),
+        rtl: core,
         definitions: framing,
         setup: nothing,
         bound_clocks: None,
@@ -51,11 +60,14 @@ pub const PROOFS: &[Proof] = &[
         name: "pipeline",
         purpose: "the core's results keep the rules of AXI4-Stream; nothing lies between their fields; stalled clocks are counted",
         text: include_str!("../../../formal/pipeline.sv"),
+        rtl: core,
         definitions: whole,
         setup: nothing,
         bound_clocks: None,
-        cover_clocks: 150,
+        cover_clocks: 200,
     },
+    equal::PAIRS[0],
+    equal::PAIRS[1],
 ];
 
 /// The proof of one pixel's sums, of four.
@@ -64,6 +76,7 @@ const fn sums_of_pixel(name: &'static str, definitions: fn(&Pipeline) -> String)
         name,
         purpose: "what drains for a pixel is the exact sum of weight times sample: no overflow, nothing stale",
         text: include_str!("../../../formal/sums.sv"),
+        rtl: core,
         definitions,
         setup: small_memory,
         bound_clocks: None,
@@ -74,8 +87,10 @@ const fn sums_of_pixel(name: &'static str, definitions: fn(&Pipeline) -> String)
 impl Proof {
     /// The bits of the file's list `bad` or `seen` and what they say, from the comments beside them.
     pub fn names(&self, list: &str) -> Vec<(usize, String)> {
-        let block = self.text.split(&format!("] {list} = {{")).nth(1).and_then(|rest| rest.split("};").next());
-        let comments = block.unwrap_or("").lines().filter_map(|line| line.split_once("// ")).map(|(_, comment)| comment);
+        let block =
+            self.text.split(&format!("] {list} = {{")).nth(1).and_then(|rest| rest.split("};").next());
+        let comments =
+            block.unwrap_or("").lines().filter_map(|line| line.split_once("// ")).map(|(_, comment)| comment);
         let mut names: Vec<(usize, String)> = comments
             .filter_map(|comment| comment.trim().split_once(' '))
             .filter_map(|(number, what)| Some((number.parse().ok()?, what.trim().to_owned())))
@@ -85,7 +100,12 @@ impl Proof {
     }
 }
 
-fn nothing(_: &Pipeline) -> String {
+/// The whole core.
+fn core(pipeline: &Pipeline) -> Result<Vec<Artifact>> {
+    Ok(rtl_artifacts(&Source { pipeline, spec: "proof" }))
+}
+
+pub(super) fn nothing(_: &Pipeline) -> String {
     String::new()
 }
 
@@ -98,7 +118,7 @@ fn small_memory(pipeline: &Pipeline) -> String {
     )
 }
 
-fn define(name: &str, value: impl std::fmt::Display) -> String {
+pub(super) fn define(name: &str, value: impl std::fmt::Display) -> String {
     format!("`define {name} {value}\n")
 }
 
