@@ -13,10 +13,10 @@ use vuris::cosim::{Verilator, lint};
 use vuris::hdl::{Golden, Scenario, Source, all_artifacts, rtl_artifacts};
 use vuris::spec::{PRESETS, Pipeline};
 
-/// Both presets as they are, and specifications of every kind.
+/// The presets as they are, and specifications of every kind.
 fn varied() -> Vec<Pipeline> {
     let presets = PRESETS.iter().map(|preset| Pipeline::named(preset.name).unwrap());
-    presets.chain(accepted(20)).collect()
+    presets.chain(accepted(std::env::var("N").map_or(20, |n| n.parse().unwrap()))).collect()
 }
 
 /// The generated files of `pipeline`, benches and (no) vectors included, in a folder.

@@ -34,7 +34,7 @@ pub(super) fn rounded(value: &Real) -> i64 {
 fn angle_gain(metric: i64, x_iterations: u32) -> Real {
     let stretch = |i: u32| integer(1) + integer(metric) * power_of_two(-2 * i64::from(i));
     let squared = (0..=x_iterations).map(stretch).fold(integer(1), |product, factor| product * factor);
-    squared.sqrt() * (integer(1) + stretch(x_iterations).sqrt()) / integer(2)
+    squared.sqrt() * (integer(1) + integer(1) / stretch(x_iterations).sqrt()) / integer(2)
 }
 
 /// The angle unit's gain as an `f64`, for reports.
