@@ -8,13 +8,11 @@ mod support;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
 use std::cell::Cell;
-use support::{small, specifications};
+use support::{angle_units, small, specifications};
 use vuris::model::{
     Accumulator, Normalised, PixelRecord, PixelSlot, Sums, distance, normalise, pixel, rotate_seen, turn,
 };
-use vuris::spec::{
-    AngleSpecification, AngleUnit, Cordic, PRESETS, Pipeline, Rounding, Specification, Throughput, Word,
-};
+use vuris::spec::{AngleUnit, Cordic, PRESETS, Pipeline, Rounding, Specification, Throughput, Word};
 
 /// A pixel's codes, frame by frame.
 type Codes = Vec<u32>;
@@ -290,52 +288,29 @@ fn no_register_leaves_its_word_at_any_corner() {
 /// Angle units without a camera: words of every width, and the vectors that no camera has, -2^(bits - 1) among them.
 #[test]
 fn no_register_of_a_bare_angle_unit_leaves_its_word() {
-    let words = (2..=40_u32, 2..=40_u32, any::<bool>(), 4..=24_u32, 0..=32_u32);
-    let cordic = (0..9_usize, 4..=30_u32, 0..=8_u32, 1..=8_u32);
     let vectors = prop::collection::vec((any::<[i64; 2]>(), [0..12_u32, 0..12_u32]), 40);
     let vectors_tried = Cell::new(0);
     TestRunner::new(Config { cases: 600, failure_persistence: None, ..Config::default() })
-        .run(
-            &(words, cordic, vectors),
-            |(
-                (x_bits, y_bits, three, phase_bits, length_bits),
-                (kind, iterations, vector, angle),
-                vectors,
-            )| {
-                let specification = AngleSpecification {
-                    x_bits,
-                    y_bits,
-                    metric: if three { 3 } else { 1 },
-                    phase_bits,
-                    length_bits,
-                    cordic: Cordic {
-                        iterations: iterations.min(phase_bits + vector),
-                        vector_guard_bits: vector,
-                        angle_guard_bits: angle,
-                        ..cordics()[kind].clone()
-                    },
+        .run(&(angle_units(), vectors), |(unit, vectors)| {
+            for ([x, y], [x_corner, y_corner]) in vectors {
+                // Half of the coordinates are at a corner, the others of any strength.
+                let coordinate = |value: i64, bits: u32, corner: u32| {
+                    let most = (1_i64 << (bits - 1)) - 1;
+                    let corners = [-most - 1, -most, -1, 0, 1, most];
+                    let strength = 64 - bits + corner.saturating_sub(6) * bits / 6;
+                    corners.get(corner as usize).copied().unwrap_or(value >> strength.min(63))
                 };
-                let unit = AngleUnit::new("any", specification).unwrap();
-                for ([x, y], [x_corner, y_corner]) in vectors {
-                    // Half of the coordinates are at a corner, the others of any strength.
-                    let coordinate = |value: i64, bits: u32, corner: u32| {
-                        let most = (1_i64 << (bits - 1)) - 1;
-                        let corners = [-most - 1, -most, -1, 0, 1, most];
-                        let strength = 64 - bits + corner.saturating_sub(6) * bits / 6;
-                        corners.get(corner as usize).copied().unwrap_or(value >> strength.min(63))
-                    };
-                    let (x, y) = (coordinate(x, x_bits, x_corner), coordinate(y, y_bits, y_corner));
-                    let normalised = normalise(&unit, x, y);
-                    normalised_as_it_should(&unit, x, y, &normalised)?;
-                    iterated_as_it_should(&unit, x, y, normalised)?;
-                    let turned = turn(&unit, x, y);
-                    prop_assert!(Word::unsigned(phase_bits).contains(turned.phase));
-                    prop_assert!(!turned.zero || turned.phase == 0);
-                    vectors_tried.set(vectors_tried.get() + 1);
-                }
-                Ok(())
-            },
-        )
+                let (x, y) = (coordinate(x, unit.x_bits, x_corner), coordinate(y, unit.y_bits, y_corner));
+                let normalised = normalise(&unit, x, y);
+                normalised_as_it_should(&unit, x, y, &normalised)?;
+                iterated_as_it_should(&unit, x, y, normalised)?;
+                let turned = turn(&unit, x, y);
+                prop_assert!(Word::unsigned(unit.phase_bits).contains(turned.phase));
+                prop_assert!(!turned.zero || turned.phase == 0);
+                vectors_tried.set(vectors_tried.get() + 1);
+            }
+            Ok(())
+        })
         .unwrap();
     println!("{} vectors", vectors_tried.get());
 }
