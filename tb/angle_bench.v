@@ -44,7 +44,7 @@ module angle_bench;
   reg         held;
   reg  [RESULT_BITS-1:0] held_result;
 
-  function [31:0] next_random;
+  function automatic [31:0] next_random;
     input [31:0] state;
     reg   [31:0] bits;
     begin
@@ -144,14 +144,19 @@ module angle_bench;
         end
         received <= received + 1;
         if (received + 1 == VECTORS) begin
-          if (mismatches == 0 && result === expected) $display("PASS values=%0d clocks=%0d mismatches=0", VECTORS, clocks);
-          else $display("FAIL values=%0d clocks=%0d mismatches=%0d", VECTORS, clocks, mismatches + (result !== expected ? 1 : 0));
-          $finish;
+          if (mismatches == 0 && result === expected) begin
+            $display("PASS values=%0d clocks=%0d mismatches=0", VECTORS, clocks);
+            $finish;
+          end else begin
+            // A stop, so that `vvp -N` and its like end with an exit code that is not 0.
+            $display("FAIL values=%0d clocks=%0d mismatches=%0d", VECTORS, clocks, mismatches + (result !== expected ? 1 : 0));
+            $stop;
+          end
         end
       end
       if (waited > PATIENCE) begin
         $display("FAIL values=%0d clocks=%0d mismatches=%0d: nothing comes any more", received, clocks, mismatches + 1);
-        $finish;
+        $stop;
       end
     end
   end
