@@ -29,6 +29,7 @@
 //! | [`recording`] | the recording format, read and written |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
 //! | [`physics`] | the forward simulator of raw frames |
+//! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
 //! | [`cli`] | one file a command |
@@ -56,4 +57,5 @@ pub mod recording;
 pub mod reference;
 pub mod report;
 pub mod spec;
+pub mod sweep;
 pub mod units;

@@ -9,6 +9,7 @@ mod process;
 mod progress;
 mod scene;
 mod stimulus;
+mod sweep;
 mod verify;
 
 pub use stimulus::{golden_of_preset, scene_sets};
@@ -34,6 +35,7 @@ enum Command {
     Process(process::Process),
     Explain(explain::Explain),
     Scene(scene::Scene),
+    Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
 }
 
@@ -47,6 +49,7 @@ impl Arguments {
             Command::Process(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
+            Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
         }
     }

@@ -16,3 +16,12 @@ pub(super) fn during<T>(what: impl Into<String>, work: impl FnOnce() -> T) -> T 
     bar.finish_and_clear();
     result
 }
+
+/// A bar of `total` steps with the time that is left; like everything here, silent where standard error is no terminal.
+pub(super) fn bar(total: u64) -> ProgressBar {
+    let bar = ProgressBar::new(total);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent}%  {eta} left  {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
