@@ -136,10 +136,10 @@ module angle_bench;
         if (result !== expected) begin
           mismatches <= mismatches + 1;
           if (mismatches < 10) begin
-            $display("MISMATCH vector %0d (%h, %h) in clock %0d: phase %h zero %b length %h shift %h number %h, expected %h %b %h %h %h",
+            $display("MISMATCH vector %0d (%h, %h) in clock %0d: phase %h zero %b length %h shift %h number %h",
                      received, x_golden[received], y_golden[received], clocks, phase, zero, length, shift, number,
-                     phase_golden[received], zero_golden[received], length_golden[received], shift_golden[received],
-                     due[META_BITS-1:0]);
+                     ", expected %h %b %h %h %h", phase_golden[received], zero_golden[received],
+                     length_golden[received], shift_golden[received], due[META_BITS-1:0]);
           end
         end
         received <= received + 1;
