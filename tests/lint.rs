@@ -10,8 +10,8 @@ use std::process::Command;
 use support::{accepted, hdl_tool, said};
 use vuris::artifact;
 use vuris::cosim::{Verilator, lint};
-use vuris::hdl::{Golden, Scenario, Source, all_artifacts, rtl_artifacts};
-use vuris::spec::{PRESETS, Pipeline};
+use vuris::hdl::{Golden, Scenario, Source, all_artifacts, angle_core_artifacts, rtl_artifacts};
+use vuris::spec::{ANGLE_PRESETS, AngleCore, PRESETS, Pipeline};
 
 /// Both presets as they are, and specifications of every kind.
 fn varied() -> Vec<Pipeline> {
@@ -26,6 +26,19 @@ fn generated(pipeline: &Pipeline) -> tempfile::TempDir {
     let golden = Golden::new(pipeline, &Scenario::default());
     artifact::write(folder.path(), &all_artifacts(&source, &golden)).unwrap();
     folder
+}
+
+/// A folder for each of [`varied`], and for each preset of an angle unit by itself.
+fn folders() -> Vec<(String, tempfile::TempDir)> {
+    let mut folders: Vec<_> =
+        varied().iter().map(|pipeline| (pipeline.to_toml(), generated(pipeline))).collect();
+    for preset in ANGLE_PRESETS {
+        let core = AngleCore::parse(preset.name, preset.text).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        artifact::write(folder.path(), &angle_core_artifacts(&core, "test", &[(3, 4)])).unwrap();
+        folders.push((core.to_toml(), folder));
+    }
+    folders
 }
 
 fn version(verilator: &Verilator) -> String {
@@ -104,12 +117,12 @@ fn stated_rules() -> [String; 2] {
 fn the_style_is_that_of_the_stated_rules() {
     let rules = stated_rules();
     let rules = rules.each_ref().map(String::as_str);
-    let pipelines = varied();
-    for pipeline in &pipelines {
-        let findings = style(generated(pipeline).path(), &rules);
-        assert!(findings.is_empty(), "{}\n{}", findings.join("\n"), pipeline.to_toml());
+    let folders = folders();
+    for (specification, folder) in &folders {
+        let findings = style(folder.path(), &rules);
+        assert!(findings.is_empty(), "{}\n{specification}", findings.join("\n"));
     }
-    println!("{} cores and benches clean", pipelines.len());
+    println!("{} cores and benches clean", folders.len());
 }
 
 /// A rule that is off without a reason, or for a reason that is gone, would hide what it is for.
@@ -117,7 +130,7 @@ fn the_style_is_that_of_the_stated_rules() {
 fn every_exception_to_the_style_has_its_reason_and_is_needed() {
     let text = std::fs::read_to_string(RULES).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    let folders: Vec<tempfile::TempDir> = varied().iter().map(generated).collect();
+    let folders = folders();
     let mut off = 0;
     for (number, rule) in
         lines.iter().enumerate().filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
@@ -125,8 +138,9 @@ fn every_exception_to_the_style_has_its_reason_and_is_needed() {
         assert!(number > 0 && lines[number - 1].starts_with("# "), "{rule} has no reason above it");
         if let Some(rule) = rule.strip_prefix('-') {
             let only = format!("--rules={rule}");
-            let needed =
-                folders.iter().any(|folder| !style(folder.path(), &["--ruleset=none", &only]).is_empty());
+            let needed = folders
+                .iter()
+                .any(|(_, folder)| !style(folder.path(), &["--ruleset=none", &only]).is_empty());
             assert!(needed, "{rule} finds nothing: take it out of {RULES}");
             off += 1;
         }
