@@ -106,6 +106,23 @@ fn help_names_every_command_and_every_option() {
             ],
         ),
         ("demo", &["--out <DIR>", "--campaign <DIR>", "default: target/demo"]),
+        (
+            "synth",
+            &[
+                "--out <DIR>",
+                "--target <NAME>",
+                "--family <FAMILY>",
+                "ecp5",
+                "ice40",
+                "--seeds <N>",
+                "--jobs <N>",
+                "--accept",
+                "--check",
+                "--spec <FILE|PRESET>",
+                "--top <MODULE>",
+                "--clock <PORT>",
+            ],
+        ),
     ];
     let home = home();
     let overview = run(home.path(), &["--help"]);

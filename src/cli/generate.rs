@@ -14,7 +14,7 @@ use std::process::ExitCode;
 /// Write Verilog, test benches, golden vectors, a package and an integration guide from a specification
 #[derive(Debug, Args)]
 pub(super) struct Generate {
-    /// Specification: a preset (vuris, vuris-fast, vuris-four-frame, angle-16, angle-16-folded, angle-16-iterative) or a TOML file
+    /// Specification: a preset (vuris, vuris-fast, vuris-four-frame, angle-16, angle-16-folded, angle-16-iterative, angle-16-poly, angle-16-poly-memory) or a TOML file
     #[arg(long, value_name = "FILE|PRESET")]
     spec: String,
     /// Folder to write to, or to check

@@ -1,15 +1,18 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
 mod campaign;
+mod coverage;
 mod demo;
 mod explain;
 mod generate;
+mod mutate;
 mod print;
 mod process;
 mod progress;
 mod scene;
 mod stimulus;
 mod sweep;
+mod synth;
 mod verify;
 
 pub use stimulus::{golden_of_preset, scene_sets};
@@ -37,6 +40,9 @@ enum Command {
     Scene(scene::Scene),
     Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
+    Synth(synth::Synth),
+    Mutate(mutate::Mutate),
+    Coverage(coverage::Coverage),
 }
 
 impl Arguments {
@@ -51,6 +57,9 @@ impl Arguments {
             Command::Scene(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
+            Command::Synth(command) => command.run(),
+            Command::Mutate(command) => command.run(),
+            Command::Coverage(command) => command.run(),
         }
     }
 }

@@ -7,6 +7,7 @@ mod pixel_image;
 mod scale;
 mod svg;
 mod sweep;
+mod synthesis;
 
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
@@ -15,3 +16,4 @@ pub use svg::escaped;
 pub use sweep::{
     Column, Values, front_table, octave_table, sweep_columns, sweep_csv, sweep_parquet, sweep_picture,
 };
+pub use synthesis::{comparison_table, measured_table, synthesis};

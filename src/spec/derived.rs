@@ -1,7 +1,7 @@
 //! Every number that follows from a specification: widths with the bound that makes them safe, constants, latency.
 
 use super::exact::{self, ScaledConstant};
-use super::{AngleSpecification, AngleUnit, Specification, Word, refused};
+use super::{AngleSpecification, AngleUnit, Atan, Specification, Word, refused};
 use crate::problem::Result;
 
 /// What follows from a [`Specification`]; every field's doc is the proof of its bound.
@@ -85,6 +85,7 @@ impl Derived {
                 metric,
                 phase_bits: output.phase_bits,
                 length_bits,
+                atan: Atan::Cordic,
                 cordic: cordic.clone(),
             },
         )?;

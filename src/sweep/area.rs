@@ -53,6 +53,8 @@ impl AreaModel {
             Architecture::Unrolled => [2.6971, 0.8215, 1.4759, 0.9255, 2.9167],
             Architecture::Folded { .. } => [2.0157, 0.9944, 1.1963, 1.0956, 1.4307],
             Architecture::Iterative => [1.4099, -10.2515, 4.1805, 4.1514, 4.7316],
+            // Not a CORDIC: no model, and no number either.
+            Architecture::Tables => [f64::NAN; 5],
         };
         Self { coefficients }
     }
@@ -86,6 +88,7 @@ impl AreaModel {
                 (magnitudes * levels + stages * choice(rounds), stages, angles)
             }
             Architecture::Iterative => (1, 1, unit.angle_bits),
+            Architecture::Tables => (0, 0, 0),
         };
         let fold = unit.x_bits + unit.y_bits;
         [fold, shift, over(built, &bits_at), over(built, &tripled_at), angle].map(f64::from)

@@ -9,7 +9,7 @@ use super::print::{counted, say};
 use super::progress;
 use crate::problem::{Problem, Result};
 use crate::report::{front_table, octave_table, sweep_columns, sweep_csv, sweep_parquet, sweep_picture};
-use crate::spec::{AngleUnit, Architecture, Design, Rounding, Throughput};
+use crate::spec::{AngleUnit, Architecture, Atan, Design, Rounding, Throughput};
 use crate::sweep::{
     AreaModel, Configuration, ExactAngle, Figures, Grid, Plan, Point, Record, Shard, Tally, evaluate,
     throughput_named,
@@ -157,6 +157,11 @@ impl Sweep {
             Some(text) => Grid::numbers(option, text),
             None => Ok(vec![otherwise]),
         };
+        if unit.atan != Atan::Cordic {
+            return Err(Problem::at("sweep", "atan = \"poly\"")
+                .expected("a CORDIC: the sweep varies its iterations and guard bits")
+                .remedy("set atan = \"cordic\""));
+        }
         let mut base = Configuration::of(unit);
         if self.word.is_some() {
             // Not a camera's sums: a unit by itself, which gives the phase alone.
@@ -317,6 +322,7 @@ impl Sweep {
             Architecture::Unrolled => "unrolled",
             Architecture::Folded { .. } => "folded",
             Architecture::Iterative => "one iteration a clock",
+            Architecture::Tables => "tables and multipliers",
         };
         for name in ["unrolled", "folded", "one iteration a clock"] {
             let points: Vec<_> = points.iter().filter(|(unit, _)| kind(unit) == name).cloned().collect();
