@@ -4,7 +4,7 @@ use super::angle::{read_cordic, write_cordic};
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
     Modulation, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order, refused,
-    scheme, scheme_names, sequence,
+    scheme_file, sequence,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -58,15 +58,21 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let modulation = top.section("modulation")?;
-    modulation.only(&["scheme", "frequency_hz", "frames_per_step", "order", "phase_step_bits"])?;
-    let one_of = format!("one of {}", scheme_names());
-    let scheme =
-        scheme(modulation.text("scheme", &one_of)?).ok_or_else(|| modulation.refuse("scheme", &one_of))?;
+    modulation.only(&[
+        "scheme",
+        "frequency_hz",
+        "frames_per_step",
+        "frames",
+        "coefficient_bits",
+        "order",
+        "phase_step_bits",
+    ])?;
+    let scheme = scheme_file::read(source, &modulation)?;
     let modulation = Modulation {
-        scheme,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
-        order: order(&modulation, scheme)?,
+        order: order(&modulation, &scheme)?,
+        scheme,
         phase_step_bits: modulation.integer_or("phase_step_bits", 2..=24, DEFAULT_PHASE_STEP_BITS.into())?
             as u32,
     };
@@ -180,8 +186,8 @@ pub(super) fn write(specification: &Specification) -> String {
          \n[sensor]\n\
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
-         scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
-         order = {:?}\nphase_step_bits = {}\n\
+         {}frequency_hz = {:?}\nframes_per_step = {}\n\
+         order = {:?}\nphase_step_bits = {}\n{}\
          \n{}\n[output]\n\
          phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
          distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
@@ -192,11 +198,12 @@ pub(super) fn write(specification: &Specification) -> String {
         sensor.adc_bits,
         sensor.saturation_dn,
         sensor.line_blanking_clocks,
-        modulation.scheme.name,
+        scheme_file::fields(&modulation.scheme),
         modulation.frequency_hz,
         modulation.frames_per_step,
         modulation.steps_in_order(),
         modulation.phase_step_bits,
+        scheme_file::table(&modulation.scheme),
         write_cordic(cordic),
         output.phase_bits,
         output.amplitude,

@@ -50,7 +50,7 @@ impl Target {
     pub fn of_pipeline(pipeline: &Pipeline, spec: &str) -> Result<Self> {
         let artifacts = rtl_artifacts(&Source { pipeline, spec });
         let verilog = artifacts.into_iter().filter(|artifact| artifact.path.ends_with(".v")).collect();
-        let (sensor, scheme) = (&pipeline.sensor, pipeline.modulation.scheme.name);
+        let (sensor, scheme) = (&pipeline.sensor, &pipeline.modulation.scheme.name);
         Ok(Self {
             name: pipeline.name.clone(),
             purpose: format!(
