@@ -11,6 +11,8 @@ mod framing;
 mod offset;
 mod pipeline;
 mod poly;
+mod registers;
+mod sequencer;
 mod stream;
 
 pub use accumulator::{Accumulator, Sums};
@@ -21,4 +23,6 @@ pub use framing::{Framing, FramingEvent, PixelSlot};
 pub use offset::offset;
 pub use pipeline::{PipelineModel, PixelRecord, pixel};
 pub use poly::{poly, poly_arctangent, poly_reciprocal};
+pub use registers::{Access, Answer, ReadData, Registers};
+pub use sequencer::{NextFrame, next_frame};
 pub use stream::{Beat, StreamEvent, beats_of_set};

@@ -35,9 +35,8 @@ struct Guide {
     pixels: usize,
     adc_bits: u32,
     saturation: i64,
-    scheme: &'static str,
-    steps: usize,
-    step: String,
+    scheme: String,
+    steps: String,
     frames_per_step: usize,
     frames_per_set: usize,
     frequency_mhz: f64,
@@ -67,7 +66,6 @@ pub(super) fn artifact(source: &Source, resources: &[String]) -> Artifact {
     let pipeline = source.pipeline;
     let (derived, sensor, modulation) = (pipeline.derived(), &pipeline.sensor, &pipeline.modulation);
     let (timing, budget) = (Timing::new(pipeline), pipeline.budget());
-    let (numerator, denominator) = modulation.scheme.step_turns;
     let bound = |relative: f64| format!("0.5 codes + {relative:.1e} of it");
     let ports = ports(pipeline).into_iter().map(|port| PortRow {
         name: port.name,
@@ -100,9 +98,8 @@ pub(super) fn artifact(source: &Source, resources: &[String]) -> Artifact {
         pixels: pipeline.geometry().pixels(),
         adc_bits: sensor.adc_bits,
         saturation: sensor.saturation_dn,
-        scheme: modulation.scheme.name,
-        steps: modulation.scheme.steps(),
-        step: format!("{numerator}/{denominator}"),
+        scheme: modulation.scheme.name.to_string(),
+        steps: modulation.scheme.steps_in_words(),
         frames_per_step: modulation.frames_per_step,
         frames_per_set: derived.frames_per_set,
         frequency_mhz: modulation.frequency_hz / 1e6,

@@ -13,7 +13,8 @@ use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
 use vuris::spec::{
-    Cordic, Modulation, Output, Pipeline, Rounding, SCHEMES, Sensor, Specification, Throughput,
+    Cordic, Irrational, Modulation, Output, Pipeline, RegisterBlock, Rounding, Row, SCHEMES, Scheme, Sensor,
+    Specification, StepAngle, Throughput, normalised_order,
 };
 use vuris::units::unambiguous_range_m;
 
@@ -85,6 +86,60 @@ pub fn everything(pipeline: &Pipeline, seed: u64) -> Scenario {
     scenario
 }
 
+/// The steps of `scheme` in an order that `seed` gives; ascending for every fourth.
+pub fn shuffled(scheme: &Scheme, seed: u64) -> Option<Vec<usize>> {
+    let mut order: Vec<usize> = (0..scheme.steps()).collect();
+    if !seed.is_multiple_of(4) {
+        order.sort_by_key(|&step| (seed ^ (step as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    }
+    normalised_order(scheme, order)
+}
+
+/// Name, step angles, weights of in-phase and quadrature sum for I_n = A cos(angle_n - phi) + B, and the irrational.
+type PublishedRow = (&'static str, &'static str, &'static [i64], &'static [i64], Irrational);
+
+/// Rows of published algorithms that are not built in.
+pub const ROWS: [PublishedRow; 5] = [
+    // tan phi = 2 (I4 - I2) / (2 I3 - I1 - I5) with the phase at the middle frame.
+    ("hariharan", "-1/2 -1/4 0 1/4 1/2", &[-1, 0, 2, 0, -1], &[0, -2, 0, 2, 0], Irrational::One),
+    ("schmit-creath", "-1/2 -1/4 0 1/4 1/2", &[-1, -2, 6, -2, -1], &[1, -4, 0, 4, -1], Irrational::One),
+    (
+        "de-groot",
+        "-3/4 -1/2 -1/4 0 1/4 1/2 3/4",
+        &[0, -4, 0, 8, 0, -4, 0],
+        &[1, 0, -7, 0, 7, 0, -1],
+        Irrational::One,
+    ),
+    // N + 1 frames with N = 3 and 4 (Surrel 1993): half of the first and of the last, and a cotangent.
+    ("three-plus-one", "0 1/3 2/3 1", &[3, -3, -3, 3], &[1, 3, -3, -1], Irrational::Sqrt3),
+    ("four-plus-one", "0 1/4 1/2 3/4 1", &[1, 0, -2, 0, 1], &[0, 2, 0, -2, 0], Irrational::One),
+];
+
+/// The scheme of a row of [`ROWS`], all its weights times `factor`.
+pub fn row(number: usize, factor: i64) -> Scheme {
+    let (name, angles, in_phase, quadrature, irrational) = ROWS[number];
+    let times = |weights: &[i64]| weights.iter().map(|weight| weight * factor).collect();
+    let row = Row {
+        name: name.to_owned(),
+        angles: angles.split(' ').map(|angle| StepAngle::parse(angle).unwrap()).collect(),
+        in_phase: times(in_phase),
+        quadrature: times(quadrature),
+        offset: None,
+        irrational,
+        reference: "test".to_owned(),
+    };
+    Scheme::of_row("test", row).unwrap()
+}
+
+/// Schemes of every kind: named, DFTs, rows with small weights and with wide ones.
+fn schemes() -> impl Strategy<Value = Scheme> {
+    prop_oneof![
+        (0..SCHEMES.len()).prop_map(|number| SCHEMES[number].clone()),
+        (3..=9_usize, 4..=18_u32).prop_map(|(frames, bits)| Scheme::dft(frames, bits).unwrap()),
+        (0..ROWS.len(), 1..=40_i64).prop_map(|(number, factor)| row(number, factor)),
+    ]
+}
+
 /// Specifications of every kind that the program accepts: all its fields, with small sensors and few frames.
 pub fn specifications() -> impl Strategy<Value = Specification> {
     let sensor = (2..=8_usize, 1..=6_usize, 8..=16_u32, 0.0..1.5_f64, 16..=100_u32).prop_map(
@@ -99,10 +154,14 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
             }
         },
     );
-    let modulation =
-        (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize).prop_map(|(scheme, decade, frames_per_step)| {
-            Modulation { scheme: &SCHEMES[scheme], frequency_hz: 10_f64.powf(decade), frames_per_step }
-        });
+    let modulation = (schemes(), 4.0..10.0_f64, 1..=3_usize, any::<u64>(), 2..=24_u32).prop_map(|row| {
+        let (scheme, decade, frames_per_step, order, phase_step_bits) = row;
+        let order = shuffled(&scheme, order);
+        let frequency_hz = 10_f64.powf(decade);
+        Modulation { scheme, frequency_hz, frames_per_step, order, phase_step_bits }
+    });
+    let registers = (any::<bool>(), any::<u32>())
+        .prop_map(|(axi4_lite, frequency_factor)| RegisterBlock { axi4_lite, frequency_factor });
     // Every fourth one iteration a clock, the others a vector every few clocks.
     let throughput = (0..4_u32, 1..=40_u32).prop_map(|(kind, clocks)| match kind {
         0 => Throughput::OneIterationAClock,
@@ -122,8 +181,8 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
     );
     // Bits of the distance, and the least amplitude as a part of the full scale (or none).
     let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64, 0..5_u32);
-    (sensor, modulation, cordic, output)
-        .prop_map(|(sensor, modulation, cordic, output)| {
+    (sensor, modulation, cordic, output, registers)
+        .prop_map(|(sensor, modulation, cordic, output, registers)| {
             let (
                 phase_bits,
                 amplitude_fraction_bits,
@@ -149,6 +208,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
                     minimum_amplitude_dn: if amplitude { weakest.max(0.0) * full_scale_dn } else { 0.0 },
                 },
                 modulation,
+                registers,
             }
         })
         .prop_filter("it is accepted", |specification| Pipeline::new("any", specification.clone()).is_ok())
