@@ -1,157 +1,136 @@
 [[ banner ]]
-// Folds the vector into the octant 0 <= y <= x and shifts it left until the larger coordinate's top bit is set, so that
-// a weak pixel's phase is as exact as its bits allow. A vector of zeros stays zero and is marked.
+// Folds the vector into the first quadrant and shifts it left until the larger coordinate's top bit is set, so that a weak
+// pixel's phase is as exact as its bits allow. A negative coordinate is complemented bit by bit; the one that a complement
+// lacks comes as ones from the right. A vector of zeros stays zero.
 //
-//   x  | y  | octant {swapped, y negative, x negative} | major : minor
-//   -3 | 1  | 001                                      | 3 : 1
-//   1  | -3 | 110                                      | 3 : 1
-//   0  | 0  | 000, zero                                | 0 : 0
+//   x  | y | x magnitude | y magnitude, of [[ bits ]] bits
+//   1  | 0 | 100...      | 000...
+//   -1 | 0 | 111...      | 000... (one place further: ones without end are the next power of two)
+//   -3 | 1 | 101...      | 010...
 `default_nettype none
 module [[ prefix ]]_normaliser #(
-  parameter X_BITS      = [[ x_bits ]],  // x, signed
-  parameter Y_BITS      = [[ y_bits ]],  // y, signed
-  parameter BITS        = [[ bits ]],  // the larger magnitude
-  parameter VECTOR_BITS = [[ vector_bits ]],  // a normalised coordinate: one or two integer bits, [[ fraction_bits ]] fraction bits
-  parameter SHIFT_BITS  = [[ shift_bits ]],  // the shift count
-  parameter META_BITS   = [[ meta_bits ]]   // what travels along
+  parameter X_BITS     = [[ x_bits ]],  // x, signed
+  parameter Y_BITS     = [[ y_bits ]],  // y, signed
+  parameter BITS       = [[ bits ]],  // a magnitude
+  parameter SHIFT_BITS = [[ shift_bits ]],  // the shift count
+  parameter META_BITS  = [[ meta_bits ]]   // what travels along
 ) (
-  input  wire                     clk_i,      // clock
-  input  wire                     rst_ni,     // synchronous reset, active low
-  input  wire                     advance_i,  // the pipeline moves
-  input  wire                     valid_i,    // the inputs are a pixel's
-  input  wire signed [X_BITS-1:0] x_i,        // x of the vector
-  input  wire signed [Y_BITS-1:0] y_i,        // y of the vector
-  input  wire [META_BITS-1:0]     meta_i,     // travels along
-  output wire                     valid_o,    // the outputs are a pixel's
-  output wire [VECTOR_BITS-1:0]   major_o,    // larger coordinate, 1.0 to 2.0
-  output wire [VECTOR_BITS-1:0]   minor_o,    // smaller coordinate
-  output wire [SHIFT_BITS-1:0]    shift_o,    // places shifted
-  output wire [2:0]               octant_o,   // {swapped, y was negative, x was negative}
-  output wire                     zero_o,     // there is no vector
-  output wire [META_BITS-1:0]     meta_o      // meta_i, [[ clocks ]] moves later
+  input  wire                     clk_i,         // clock
+  input  wire                     rst_ni,        // synchronous reset, active low
+  input  wire                     advance_i,     // the pipeline moves
+  input  wire                     valid_i,       // the inputs are a pixel's
+  input  wire signed [X_BITS-1:0] x_i,           // x of the vector
+  input  wire signed [Y_BITS-1:0] y_i,           // y of the vector
+  input  wire [META_BITS-1:0]     meta_i,        // travels along
+  output wire                     valid_o,       // the outputs are a pixel's
+  output wire [BITS-1:0]          x_o,           // magnitude of x, shifted
+  output wire [BITS-1:0]          y_o,           // magnitude of y, shifted
+  output wire                     x_negative_o,  // x was negative
+  output wire                     y_negative_o,  // y was negative
+  output wire [SHIFT_BITS-1:0]    shift_o,       // places shifted
+  output wire                     zero_o,        // there is no vector
+  output wire [META_BITS-1:0]     meta_o         // meta_i, [[ clocks ]] moves later
 );
 
-  // First clock: magnitudes.
-  reg                 magnitude_valid_q;
-  reg [BITS-1:0]      x_magnitude_q;
-  reg [BITS-1:0]      y_magnitude_q;
-  reg                 x_negative_q;
-  reg                 y_negative_q;
-  reg [META_BITS-1:0] magnitude_meta_q;
-
-  wire [X_BITS-2:0] x_magnitude = (x_i[X_BITS-2:0] ^ {(X_BITS-1){x_i[X_BITS-1]}}) + {{(X_BITS-2){1'b0}}, x_i[X_BITS-1]};
-  wire [Y_BITS-2:0] y_magnitude = (y_i[Y_BITS-2:0] ^ {(Y_BITS-1){y_i[Y_BITS-1]}}) + {{(Y_BITS-2){1'b0}}, y_i[Y_BITS-1]};
-
-  // Second clock: the larger one first.
-  reg                   fold_valid_q;
-  reg [BITS-1:0]        fold_major_q;
-  reg [BITS-1:0]        fold_minor_q;
-  reg [META_BITS+3:0]   fold_meta_q;
-  wire                  swapped = y_magnitude_q > x_magnitude_q;
-  wire [BITS-1:0]       larger  = swapped ? y_magnitude_q : x_magnitude_q;
-  wire                  zero    = larger == {BITS{1'b0}};
-
-  always @(posedge clk_i) begin
-    if (!rst_ni) begin
-      magnitude_valid_q <= 1'b0;
-      fold_valid_q      <= 1'b0;
-    end else if (advance_i) begin
-      magnitude_valid_q <= valid_i;
-      fold_valid_q      <= magnitude_valid_q;
-    end
-  end
-
-  always @(posedge clk_i) begin
-    if (advance_i) begin
-      x_magnitude_q    <= [[ x_magnitude ]];
-      y_magnitude_q    <= [[ y_magnitude ]];
-      x_negative_q     <= x_i[X_BITS-1];
-      y_negative_q     <= y_i[Y_BITS-1];
-      magnitude_meta_q <= meta_i;
-      fold_major_q     <= larger;
-      fold_minor_q     <= swapped ? x_magnitude_q : y_magnitude_q;
-      fold_meta_q      <= {zero, swapped, y_negative_q, x_negative_q, magnitude_meta_q};
-    end
-  end
-
-  // Then one clock a shift.
-  wire                  valid_0 = fold_valid_q;
-  wire [BITS-1:0]       major_0 = fold_major_q;
-  wire [BITS-1:0]       minor_0 = fold_minor_q;
-  wire [SHIFT_BITS-1:0] shift_0 = {SHIFT_BITS{1'b0}};
-  wire [META_BITS+3:0]  meta_0  = fold_meta_q;
-[%- for stage in stages %]
-
-  wire                  valid_[[ stage.number ]];
-  wire [BITS-1:0]       major_[[ stage.number ]];
-  wire [BITS-1:0]       minor_[[ stage.number ]];
-  wire [SHIFT_BITS-1:0] shift_[[ stage.number ]];
-  wire [META_BITS+3:0]  meta_[[ stage.number ]];
-
-  [[ prefix ]]_shift_stage #(
-    .PLACES   ([[ stage.places ]]),
-    .SHIFT_BIT([[ stage.shift_bit ]]),
-    .META_BITS(META_BITS + 4)
-  ) u_shift_by_[[ stage.places ]] (
-    .clk_i    (clk_i),
-    .rst_ni   (rst_ni),
-    .advance_i(advance_i),
-    .valid_i  (valid_[[ stage.before ]]),
-    .major_i  (major_[[ stage.before ]]),
-    .minor_i  (minor_[[ stage.before ]]),
-    .shift_i  (shift_[[ stage.before ]]),
-    .meta_i   (meta_[[ stage.before ]]),
-    .valid_o  (valid_[[ stage.number ]]),
-    .major_o  (major_[[ stage.number ]]),
-    .minor_o  (minor_[[ stage.number ]]),
-    .shift_o  (shift_[[ stage.number ]]),
-    .meta_o   (meta_[[ stage.number ]])
-  );
-[%- endfor %]
-[% if drop_bits == 0 %]
-  // The CORDIC's word holds every bit.
-  assign valid_o  = valid_[[ last ]];
-  assign major_o  = [[ major_padded ]];
-  assign minor_o  = [[ minor_padded ]];
-  assign shift_o  = shift_[[ last ]];
-  assign {zero_o, octant_o, meta_o} = meta_[[ last ]];
-[%- else %]
-  // Last clock: [[ drop_bits ]] bits are rounded off, halves up. A coordinate may round up to 2.0.
-  localparam DROP_BITS = [[ drop_bits ]];
-
-  reg                   round_valid_q;
-  reg [VECTOR_BITS-1:0] round_major_q;
-  reg [VECTOR_BITS-1:0] round_minor_q;
-  reg [SHIFT_BITS-1:0]  round_shift_q;
-  reg [META_BITS+3:0]   round_meta_q;
-
-  wire [VECTOR_BITS-1:0] major_kept  = {1'b0, major_[[ last ]][BITS-1:DROP_BITS]};
-  wire [VECTOR_BITS-1:0] minor_kept  = {1'b0, minor_[[ last ]][BITS-1:DROP_BITS]};
-  wire [VECTOR_BITS-1:0] major_carry = {{(VECTOR_BITS-1){1'b0}}, major_[[ last ]][DROP_BITS-1]};
-  wire [VECTOR_BITS-1:0] minor_carry = {{(VECTOR_BITS-1){1'b0}}, minor_[[ last ]][DROP_BITS-1]};
-[%- if drop_bits > 1 %]
-  wire                   unused_bits = &{1'b0, major_[[ last ]][DROP_BITS-2:0], minor_[[ last ]][DROP_BITS-2:0]};
+  // First clock: the input as it comes[% if levels.is_empty() %], and whether it is zero[% else %], and whether the first shift is due[% endif %].
+  wire [BITS-1:0] x_raw = [[ x_raw ]];
+  wire [BITS-1:0] y_raw = [[ y_raw ]];
+[%- if !levels.is_empty() %]
+  wire [BITS-1:0] x_folded = x_raw ^ {BITS{x_i[X_BITS-1]}};
+  wire [BITS-1:0] y_folded = y_raw ^ {BITS{y_i[Y_BITS-1]}};
 [%- endif %]
 
+  reg                 valid_0;
+  reg [BITS-1:0]      x_raw_q;
+  reg [BITS-1:0]      y_raw_q;
+  reg                 x_negative_0;
+  reg                 y_negative_0;
+  reg                 [[ first_flag ]];
+  reg [META_BITS-1:0] meta_0;
+
+  wire [BITS-1:0]       x_0     = x_raw_q ^ {BITS{x_negative_0}};
+  wire [BITS-1:0]       y_0     = y_raw_q ^ {BITS{y_negative_0}};
+  wire [SHIFT_BITS-1:0] shift_0 = {SHIFT_BITS{1'b0}};
+
   always @(posedge clk_i) begin
-    if (!rst_ni) round_valid_q <= 1'b0;
-    else if (advance_i) round_valid_q <= valid_[[ last ]];
+    if (!rst_ni) valid_0 <= 1'b0;
+    else if (advance_i) valid_0 <= valid_i;
   end
 
   always @(posedge clk_i) begin
     if (advance_i) begin
-      round_major_q <= major_kept + major_carry;
-      round_minor_q <= minor_kept + minor_carry;
-      round_shift_q <= shift_[[ last ]];
-      round_meta_q  <= meta_[[ last ]];
+      x_raw_q      <= x_raw;
+      y_raw_q      <= y_raw;
+      x_negative_0 <= x_i[X_BITS-1];
+      y_negative_0 <= y_i[Y_BITS-1];
+      [[ first_flag ]]        <= [[ first_flag_value ]];
+      meta_0       <= meta_i;
     end
   end
+[%- for level in levels %]
 
-  assign valid_o  = round_valid_q;
-  assign major_o  = round_major_q;
-  assign minor_o  = round_minor_q;
-  assign shift_o  = round_shift_q;
-  assign {zero_o, octant_o, meta_o} = round_meta_q;
+  // [[ level.places ]] places, where the top bits of both are empty.
+[%- if !level.first %]
+  wire empty_[[ level.number ]] = ~|(x_[[ level.before ]][BITS-1:[[ level.top_low ]]] | y_[[ level.before ]][BITS-1:[[ level.top_low ]]]);
+[%- endif %]
+[%- if level.whole %]
+  wire [BITS-1:0] x_shifted_[[ level.number ]] = {BITS{x_negative_[[ level.before ]]}};
+  wire [BITS-1:0] y_shifted_[[ level.number ]] = {BITS{y_negative_[[ level.before ]]}};
+[%- else %]
+  wire [BITS-1:0] x_shifted_[[ level.number ]] = {x_[[ level.before ]][[ self::slice(level.kept_high, 0) ]], {[[ level.places ]]{x_negative_[[ level.before ]]}}};
+  wire [BITS-1:0] y_shifted_[[ level.number ]] = {y_[[ level.before ]][[ self::slice(level.kept_high, 0) ]], {[[ level.places ]]{y_negative_[[ level.before ]]}}};
+[%- endif %]
+  wire [BITS-1:0] x_next_[[ level.number ]] = empty_[[ level.number ]] ? x_shifted_[[ level.number ]] : x_[[ level.before ]];
+  wire [BITS-1:0] y_next_[[ level.number ]] = empty_[[ level.number ]] ? y_shifted_[[ level.number ]] : y_[[ level.before ]];
+  wire [SHIFT_BITS-1:0] shift_next_[[ level.number ]] = shift_[[ level.before ]] | {[[ level.shift_bit ]]};
+[%- if level.registered %]
+
+  reg                  valid_[[ level.number ]];
+  reg [BITS-1:0]       x_[[ level.number ]];
+  reg [BITS-1:0]       y_[[ level.number ]];
+  reg                  x_negative_[[ level.number ]];
+  reg                  y_negative_[[ level.number ]];
+  reg [SHIFT_BITS-1:0] shift_[[ level.number ]];
+  reg [META_BITS-1:0]  meta_[[ level.number ]];
+
+  always @(posedge clk_i) begin
+    if (!rst_ni) valid_[[ level.number ]] <= 1'b0;
+    else if (advance_i) valid_[[ level.number ]] <= valid_[[ level.before ]];
+  end
+
+  always @(posedge clk_i) begin
+    if (advance_i) begin
+      x_[[ level.number ]]          <= x_next_[[ level.number ]];
+      y_[[ level.number ]]          <= y_next_[[ level.number ]];
+      x_negative_[[ level.number ]] <= x_negative_[[ level.before ]];
+      y_negative_[[ level.number ]] <= y_negative_[[ level.before ]];
+      shift_[[ level.number ]]      <= shift_next_[[ level.number ]];
+      meta_[[ level.number ]]       <= meta_[[ level.before ]];
+    end
+  end
+[%- else %]
+
+  wire                  valid_[[ level.number ]]      = valid_[[ level.before ]];
+  wire [BITS-1:0]       x_[[ level.number ]]          = x_next_[[ level.number ]];
+  wire [BITS-1:0]       y_[[ level.number ]]          = y_next_[[ level.number ]];
+  wire                  x_negative_[[ level.number ]] = x_negative_[[ level.before ]];
+  wire                  y_negative_[[ level.number ]] = y_negative_[[ level.before ]];
+  wire [SHIFT_BITS-1:0] shift_[[ level.number ]]      = shift_next_[[ level.number ]];
+  wire [META_BITS-1:0]  meta_[[ level.number ]]       = meta_[[ level.before ]];
+[%- endif %]
+[%- endfor %]
+
+  assign valid_o      = valid_[[ last ]];
+  assign x_o          = x_[[ last ]];
+  assign y_o          = y_[[ last ]];
+  assign x_negative_o = x_negative_[[ last ]];
+  assign y_negative_o = y_negative_[[ last ]];
+  assign shift_o      = shift_[[ last ]];
+  assign meta_o       = meta_[[ last ]];
+[%- if levels.is_empty() %]
+  assign zero_o       = zero_0;
+[%- else %]
+  assign zero_o       = !x_[[ last ]][BITS-1] && !y_[[ last ]][BITS-1];
 [%- endif %]
 
 endmodule

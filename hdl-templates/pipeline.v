@@ -94,7 +94,8 @@ module [[ prefix ]]_pipeline (
     .sets_discarded_o(sets_discarded_o)
   );
 
-  // From here on the pipeline moves as one, unless its last word waits.
+  // The angle unit takes sums when it can; what comes after it moves as one, unless the last word waits.
+  wire sums_taken;
   wire advance;
 
   wire sums_valid;
@@ -116,7 +117,7 @@ module [[ prefix ]]_pipeline (
     .drain_start_i  (drain_start),
     .drain_busy_o   (drain_busy),
     .drain_address_o(drain_address),
-    .advance_i      (advance),
+    .advance_i      (sums_taken),
     .valid_o        (sums_valid),
     .first_o        (sums_first),
     .last_o         (sums_last),
@@ -126,148 +127,72 @@ module [[ prefix ]]_pipeline (
     .saturated_o    (sums_saturated)
   );
 
-  wire vector_valid;
-  wire signed [[ x_range ]] vector_x;
-  wire signed [[ y_range ]] vector_y;
-  wire [[ meta_range ]] vector_meta;
+  wire angle_ready;
+  wire angle_valid;
+  wire angle_zero;
+  wire angle_first;
+  wire angle_last;
+  wire angle_saturated;
+  wire [[ phase_range ]] angle_phase;
+  wire [[ length_range ]] angle_length;
+  wire [[ shift_range ]] angle_shift;
+  wire [[ offset_sum_range ]] angle_offset;
 
-  [[ prefix ]]_scaling u_scaling (
-    .clk_i       (clk_i),
-    .rst_ni      (rst_ni),
-    .advance_i   (advance),
-    .valid_i     (sums_valid),
-    .in_phase_i  (sums_in_phase),
-    .quadrature_i(sums_quadrature),
-    .meta_i      ({sums_first, sums_last, sums_saturated, sums_offset}),
-    .valid_o     (vector_valid),
-    .x_o         (vector_x),
-    .y_o         (vector_y),
-    .meta_o      (vector_meta)
+  assign sums_taken = !sums_valid || angle_ready;
+
+  [[ prefix ]]_angle u_angle (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (sums_valid),
+    .ready_o (angle_ready),
+    .x_i     (sums_in_phase),
+    .y_i     (sums_quadrature),
+    .meta_i  ({sums_first, sums_last, sums_saturated, sums_offset}),
+    .valid_o (angle_valid),
+    .ready_i (advance),
+    .phase_o (angle_phase),
+    .zero_o  (angle_zero),
+    .length_o(angle_length),
+    .shift_o (angle_shift),
+    .meta_o  ({angle_first, angle_last, angle_saturated, angle_offset})
   );
 
-  wire normal_valid;
-  wire [[ vector_range ]] normal_major;
-  wire [[ vector_range ]] normal_minor;
-  wire [[ shift_range ]] normal_shift;
-  wire [2:0] normal_octant;
-  wire normal_zero;
-  wire [[ meta_range ]] normal_meta;
-
-  [[ prefix ]]_normaliser u_normaliser (
-    .clk_i    (clk_i),
-    .rst_ni   (rst_ni),
-    .advance_i(advance),
-    .valid_i  (vector_valid),
-    .x_i      (vector_x),
-    .y_i      (vector_y),
-    .meta_i   (vector_meta),
-    .valid_o  (normal_valid),
-    .major_o  (normal_major),
-    .minor_o  (normal_minor),
-    .shift_o  (normal_shift),
-    .octant_o (normal_octant),
-    .zero_o   (normal_zero),
-    .meta_o   (normal_meta)
-  );
-
-  wire rotated_valid;
-  wire [[ vector_range ]] rotated_x;
-  wire [[ angle_range ]] rotated_angle;
-  wire [[ shift_range ]] rotated_shift;
-  wire [2:0] rotated_octant;
-  wire rotated_zero;
-  wire rotated_first;
-  wire rotated_last;
-  wire rotated_saturated;
-  wire [[ offset_sum_range ]] rotated_offset;
-
-  [[ prefix ]]_cordic u_cordic (
-    .clk_i    (clk_i),
-    .rst_ni   (rst_ni),
-    .advance_i(advance),
-    .valid_i  (normal_valid),
-    .major_i  (normal_major),
-    .minor_i  (normal_minor),
-    .meta_i   ({normal_zero, normal_octant, normal_shift, normal_meta}),
-    .valid_o  (rotated_valid),
-    .x_o      (rotated_x),
-    .angle_o  (rotated_angle),
-    .meta_o   ({rotated_zero, rotated_octant, rotated_shift,
-                rotated_first, rotated_last, rotated_saturated, rotated_offset})
-  );
-
-  wire [[ phase_range ]] phase;
-  wire [[ amplitude_range ]] amplitude;
-  wire [[ offset_range ]] offset;
-
-  [[ prefix ]]_phase u_phase (
-    .clk_i    (clk_i),
-    .advance_i(advance),
-    .angle_i  (rotated_angle),
-    .octant_i (rotated_octant),
-    .zero_i   (rotated_zero),
-    .phase_o  (phase)
-  );
+  wire [[ offset_range ]] result_offset;
+  wire [[ distance_range ]] result_distance;
+[%- if with_amplitude %]
+  wire [[ amplitude_range ]] result_amplitude;
 
   [[ prefix ]]_amplitude u_amplitude (
     .clk_i      (clk_i),
     .advance_i  (advance),
-    .x_i        (rotated_x),
-    .shift_i    (rotated_shift),
-    .zero_i     (rotated_zero),
-    .amplitude_o(amplitude)
+    .x_i        (angle_length),
+    .shift_i    (angle_shift),
+    .zero_i     (angle_zero),
+    .amplitude_o(result_amplitude)
   );
+[%- else %]
+  wire unused_length = &{1'b0, angle_length, angle_shift};
+[%- endif %]
 
   [[ prefix ]]_offset u_offset (
     .clk_i    (clk_i),
     .advance_i(advance),
-    .sum_i    (rotated_offset),
-    .offset_o (offset)
+    .sum_i    (angle_offset),
+    .offset_o (result_offset)
   );
-
-  wire polar_valid;
-  wire polar_zero;
-  wire polar_first;
-  wire polar_last;
-  wire polar_saturated;
-
-  [[ prefix ]]_delay #(
-    .WIDTH (4),
-    .CLOCKS(2)
-  ) u_polar_delay (
-    .clk_i    (clk_i),
-    .rst_ni   (rst_ni),
-    .advance_i(advance),
-    .valid_i  (rotated_valid),
-    .data_i   ({rotated_zero, rotated_first, rotated_last, rotated_saturated}),
-    .valid_o  (polar_valid),
-    .data_o   ({polar_zero, polar_first, polar_last, polar_saturated})
-  );
-
-[%- if minimum_amplitude == 0 %]
-  // Without a vector there is no phase.
-  wire polar_usable = !polar_zero;
-[%- else %]
-  // Without a vector, or with one under the specified minimum, there is no phase.
-  wire polar_usable = !polar_zero && amplitude >= [[ minimum_amplitude_literal ]];
-[%- endif %]
-
-  wire [[ distance_range ]] distance;
 
   [[ prefix ]]_distance u_distance (
     .clk_i     (clk_i),
     .advance_i (advance),
-    .phase_i   (phase),
-    .distance_o(distance)
+    .phase_i   (angle_phase),
+    .distance_o(result_distance)
   );
 
   wire result_valid;
+  wire result_zero;
   wire result_first;
   wire result_last;
   wire result_saturated;
-  wire result_usable;
-  wire [[ offset_range ]] result_offset;
-  wire [[ amplitude_range ]] result_amplitude;
   wire [[ phase_range ]] result_phase;
 
   [[ prefix ]]_delay #(
@@ -277,12 +202,19 @@ module [[ prefix ]]_pipeline (
     .clk_i    (clk_i),
     .rst_ni   (rst_ni),
     .advance_i(advance),
-    .valid_i  (polar_valid),
-    .data_i   ({polar_first, polar_last, polar_saturated, polar_usable, offset, amplitude, phase}),
+    .valid_i  (angle_valid),
+    .data_i   ({angle_zero, angle_first, angle_last, angle_saturated, angle_phase}),
     .valid_o  (result_valid),
-    .data_o   ({result_first, result_last, result_saturated, result_usable,
-                result_offset, result_amplitude, result_phase})
+    .data_o   ({result_zero, result_first, result_last, result_saturated, result_phase})
   );
+
+[%- if minimum_amplitude == 0 %]
+  // Without a vector there is no phase.
+  wire result_usable = !result_zero;
+[%- else %]
+  // Without a vector, or with one under the specified minimum, there is no phase.
+  wire result_usable = !result_zero && result_amplitude >= [[ minimum_amplitude_literal ]];
+[%- endif %]
 
   wire result_ready;
   wire [[ result_bus ]] result_data = {

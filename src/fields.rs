@@ -93,6 +93,14 @@ impl<'a> Fields<'a> {
         if self.table.contains_key(field) { self.integer(field, allowed) } else { Ok(default) }
     }
 
+    /// True or false, or `default` where the field is absent.
+    pub fn flag_or(&self, field: &str, default: bool) -> Result<bool> {
+        match self.table.get(field) {
+            None => Ok(default),
+            Some(value) => value.as_bool().ok_or_else(|| self.refuse(field, "true or false")),
+        }
+    }
+
     /// A finite number within `allowed`; `unit` is said in a refusal.
     pub fn number(&self, field: &str, allowed: RangeInclusive<f64>, unit: &str) -> Result<f64> {
         self.table

@@ -117,14 +117,15 @@ module testbench;
 
   initial for (stage = 0; stage < STAGES; stage = stage + 1) record[stage] = 0;
 
-  task surplus(input integer at);
+  task automatic surplus(input integer at);
     begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) $display("SURPLUS stage=%0d record=%0d clock=%0d", at, record[at], clocks);
     end
   endtask
 
-  task report(input [8*32-1:0] name, input integer number, input [63:0] wanted, input [63:0] found);
+  task automatic report(input reg [8*32-1:0] name, input integer number, input reg [63:0] wanted,
+                        input reg [63:0] found);
     begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) begin
@@ -199,9 +200,14 @@ module testbench;
         mismatches = mismatches + 1;
         $display("STUCK stimulus=%0d of %0d clock=%0d: the input was not taken", word, STIMULUS, clocks);
       end
-      if (mismatches == 0) $display("PASS values=%0d clocks=%0d", compared, clocks);
-      else $display("FAIL mismatches=%0d clocks=%0d", mismatches, clocks);
-      $finish;
+      if (mismatches == 0) begin
+        $display("PASS values=%0d clocks=%0d", compared, clocks);
+        $finish;
+      end else begin
+        // A stop, so that `vvp -N` and its like end with an exit code that is not 0.
+        $display("FAIL mismatches=%0d clocks=%0d", mismatches, clocks);
+        $stop;
+      end
     end
 
     // The source, after the checks. A beat stays offered until it is taken; an operation begins when the beat before it has been.

@@ -4,13 +4,8 @@ rtl/vuris_delay.v
 rtl/vuris_framing.v
 rtl/vuris_sum_memory.v
 rtl/vuris_accumulator.v
-rtl/vuris_scaling.v
-rtl/vuris_shift_stage.v
-rtl/vuris_normaliser.v
-rtl/vuris_cordic_stage.v
-rtl/vuris_cordic.v
-rtl/vuris_phase.v
 rtl/vuris_amplitude.v
 rtl/vuris_offset.v
 rtl/vuris_distance.v
+rtl/vuris_angle.v
 rtl/vuris_pipeline.v

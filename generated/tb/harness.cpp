@@ -36,15 +36,13 @@ constexpr size_t kWidth = 160;
 constexpr uint64_t kSilence = 64;  // longest pause inside a frame, clocks
 constexpr uint64_t kPatience = 20000 + 8 * kPixels + 4 * kSilence;  // clocks without any result that end the run
 constexpr uint64_t kLimit = 10;  // mismatches that are printed
-constexpr int kStages = 5;
+constexpr int kStages = 4;
 
 const char* const kVectors[] = {
     "in_phase",
     "quadrature",
     "offset_sum",
     "saturated",
-    "x",
-    "y",
     "phase",
     "amplitude",
     "offset",
@@ -64,19 +62,17 @@ constexpr Channel kChannels[] = {
     {"accumulator.quadrature", 0, 1, 15},
     {"accumulator.offset_sum", 0, 2, 16},
     {"accumulator.saturated", 0, 3, 1},
-    {"sums.x", 1, 4, 26},
-    {"sums.y", 1, 5, 25},
-    {"cordic.phase", 2, 6, 18},
-    {"cordic.amplitude", 2, 7, 16},
-    {"cordic.offset", 2, 8, 16},
-    {"cordic.usable", 2, 10, 1},
-    {"distance.distance", 3, 9, 19},
-    {"output.phase", 4, 6, 18},
-    {"output.amplitude", 4, 7, 16},
-    {"output.offset", 4, 8, 16},
-    {"output.distance", 4, 9, 19},
-    {"output.usable", 4, 10, 1},
-    {"output.saturated", 4, 3, 1},
+    {"angle.phase", 1, 4, 18},
+    {"results.amplitude", 2, 5, 16},
+    {"results.offset", 2, 6, 16},
+    {"results.distance", 2, 7, 19},
+    {"results.usable", 2, 8, 1},
+    {"output.phase", 3, 4, 18},
+    {"output.amplitude", 3, 5, 16},
+    {"output.offset", 3, 6, 16},
+    {"output.distance", 3, 7, 19},
+    {"output.usable", 3, 8, 1},
+    {"output.saturated", 3, 3, 1},
 };
 constexpr int kChannelCount = sizeof kChannels / sizeof *kChannels;
 

@@ -9,6 +9,7 @@ mod process;
 mod progress;
 mod scene;
 mod stimulus;
+mod sweep;
 mod synth;
 mod verify;
 
@@ -35,6 +36,7 @@ enum Command {
     Process(process::Process),
     Explain(explain::Explain),
     Scene(scene::Scene),
+    Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
     Synth(synth::Synth),
 }
@@ -49,6 +51,7 @@ impl Arguments {
             Command::Process(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
+            Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Synth(command) => command.run(),
         }

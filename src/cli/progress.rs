@@ -17,17 +17,11 @@ pub(super) fn during<T>(what: impl Into<String>, work: impl FnOnce() -> T) -> T 
     result
 }
 
-/// A bar of `total` steps with the time left, while `work` runs and tells every step that is done.
-pub(super) fn steps<T>(total: usize, work: impl FnOnce(&(dyn Fn(&str) + Sync)) -> T) -> T {
-    let bar = ProgressBar::new(total as u64);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed}, {eta} left: {msg}") {
+/// A bar of `total` steps with the time that is left; like everything here, silent where standard error is no terminal.
+pub(super) fn bar(total: u64) -> ProgressBar {
+    let bar = ProgressBar::new(total);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent}%  {eta} left  {msg}") {
         bar.set_style(style);
     }
-    bar.enable_steady_tick(Duration::from_millis(500));
-    let result = work(&|done| {
-        bar.set_message(done.to_owned());
-        bar.inc(1);
-    });
-    bar.finish_and_clear();
-    result
+    bar
 }

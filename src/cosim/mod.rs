@@ -1,11 +1,13 @@
 //! Building and running the simulators, and comparing stage by stage.
 
+mod angle;
 mod finding;
 mod lint;
 mod run;
 mod scenario;
 mod tools;
 
+pub use angle::simulate_angle;
 pub use finding::Finding;
 pub use lint::lint;
 pub use run::{Outcome, Simulation, Simulator, Traffic, simulate};

@@ -24,8 +24,6 @@ pub const VECTORS: &[Vector] = &[
     Vector { name: "quadrature", word: |p| p.derived().quadrature, value: |r| r.sums.quadrature },
     Vector { name: "offset_sum", word: |p| p.derived().offset_sum, value: |r| r.sums.offset },
     Vector { name: "saturated", word: |_| Word::unsigned(1), value: |r| r.sums.saturated.into() },
-    Vector { name: "x", word: |p| p.derived().x, value: |r| r.vector.x },
-    Vector { name: "y", word: |p| p.derived().y, value: |r| r.vector.y },
     Vector { name: "phase", word: |p| p.derived().phase, value: |r| r.phase },
     Vector { name: "amplitude", word: |p| p.derived().amplitude, value: |r| r.amplitude },
     Vector { name: "offset", word: |p| p.derived().offset, value: |r| r.offset },
@@ -47,7 +45,7 @@ pub struct Stage {
 pub const STAGES: &[Stage] = &[
     Stage {
         name: "accumulator",
-        strobe: "dut.sums_valid && dut.advance",
+        strobe: "dut.sums_valid && dut.sums_taken",
         probes: &[
             ("in_phase", "dut.sums_in_phase"),
             ("quadrature", "dut.sums_quadrature"),
@@ -56,24 +54,19 @@ pub const STAGES: &[Stage] = &[
         ],
     },
     Stage {
-        name: "sums",
-        strobe: "dut.vector_valid && dut.advance",
-        probes: &[("x", "dut.vector_x"), ("y", "dut.vector_y")],
+        name: "angle",
+        strobe: "dut.angle_valid && dut.advance",
+        probes: &[("phase", "dut.angle_phase")],
     },
     Stage {
-        name: "cordic",
-        strobe: "dut.polar_valid && dut.advance",
-        probes: &[
-            ("phase", "dut.phase"),
-            ("amplitude", "dut.amplitude"),
-            ("offset", "dut.offset"),
-            ("usable", "dut.polar_usable"),
-        ],
-    },
-    Stage {
-        name: "distance",
+        name: "results",
         strobe: "dut.result_valid && dut.advance",
-        probes: &[("distance", "dut.distance")],
+        probes: &[
+            ("amplitude", "dut.result_amplitude"),
+            ("offset", "dut.result_offset"),
+            ("distance", "dut.result_distance"),
+            ("usable", "dut.result_usable"),
+        ],
     },
     Stage {
         name: "output",
@@ -252,7 +245,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
 pub fn bench_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let mut bench = bench(source, golden);
     let mut file = |path: &str, purpose: &str, render: fn(&Bench) -> askama::Result<String>| {
-        bench.banner = banner(source, purpose);
+        bench.banner = banner(source.spec, purpose);
         Artifact::new(path, finished(render(&bench)))
     };
     vec![
@@ -269,7 +262,7 @@ pub fn bench_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
 }
 
 /// One value a line, in hexadecimal, as `$readmemh` reads it.
-fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
+pub(super) fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
     let digits = bits.div_ceil(4) as usize;
     let mut text = format!("// {note}\n");
     for value in values {

@@ -2,22 +2,22 @@
 //!
 //! One template a module, in `hdl-templates/`; values arrive there finished.
 
+mod angle;
 mod bench;
 mod control;
-mod cordic;
 mod golden;
-mod meta;
 mod polar;
 mod text;
 mod top;
-mod vector;
 
+pub use angle::{AngleSource, angle_core_artifacts, angle_stimulus};
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
 pub use golden::{Golden, Rest, Scenario, Segment, StimulusWord};
 pub use top::{ResultField, result_bits, result_fields};
 
 use crate::artifact::Artifact;
 use crate::spec::Pipeline;
+use angle::ANGLE_MODULES;
 
 /// What every template is rendered from.
 #[derive(Debug, Clone, Copy)]
@@ -29,71 +29,127 @@ pub struct Source<'a> {
 }
 
 /// A hardware module: one template, one file.
-pub struct Module {
+struct Module {
     /// Its noun: name of the template, of the model's function, and of the Verilog module after the prefix.
-    pub noun: &'static str,
+    noun: &'static str,
     /// One sentence, the first line of its file.
-    pub purpose: &'static str,
+    purpose: &'static str,
+    /// Whether a pipeline has it.
+    belongs: fn(&Pipeline) -> bool,
     render: fn(&Source, String) -> askama::Result<String>,
 }
 
-/// All modules below the top, in the order in which the data meets them.
-pub const MODULES: &[Module] = &[
+const fn always(_: &Pipeline) -> bool {
+    true
+}
+
+/// All modules around the angle unit, in the order in which the data meets them.
+const MODULES: &[Module] = &[
     Module {
         noun: "stream_register",
         purpose: "A stream's register that can stop.",
+        belongs: always,
         render: control::stream_register,
     },
-    Module { noun: "delay", purpose: "A word's way beside a computation.", render: control::delay },
+    Module {
+        noun: "delay",
+        purpose: "A word's way beside a computation.",
+        belongs: always,
+        render: control::delay,
+    },
     Module {
         noun: "framing",
         purpose: "Which pixel of which phase step a beat is, and whether its set can be trusted.",
+        belongs: always,
         render: control::framing,
     },
-    Module { noun: "sum_memory", purpose: "The sums of all pixels.", render: control::sum_memory },
+    Module {
+        noun: "sum_memory",
+        purpose: "The sums of all pixels.",
+        belongs: always,
+        render: control::sum_memory,
+    },
     Module {
         noun: "accumulator",
         purpose: "In-phase, quadrature and offset sums of every pixel, added while frames arrive.",
+        belongs: always,
         render: control::accumulator,
-    },
-    Module { noun: "scaling", purpose: "Both sums brought to one scale.", render: vector::scaling },
-    Module { noun: "shift_stage", purpose: "One stage of the normaliser.", render: vector::shift_stage },
-    Module { noun: "normaliser", purpose: "Octant fold and leading-zero shift.", render: vector::normaliser },
-    Module { noun: "cordic_stage", purpose: "One CORDIC iteration.", render: cordic::cordic_stage },
-    Module { noun: "cordic", purpose: "CORDIC in vectoring mode.", render: cordic::cordic },
-    Module {
-        noun: "phase",
-        purpose: "The phase of a turned vector, its octant fold undone.",
-        render: polar::phase,
     },
     Module {
         noun: "amplitude",
         purpose: "The amplitude of a turned vector, its gains undone.",
+        belongs: |pipeline| pipeline.output.amplitude,
         render: polar::amplitude,
     },
-    Module { noun: "offset", purpose: "The offset of a pixel.", render: polar::offset },
-    Module { noun: "distance", purpose: "The distance of a phase.", render: polar::distance },
+    Module { noun: "offset", purpose: "The offset of a pixel.", belongs: always, render: polar::offset },
+    Module {
+        noun: "distance",
+        purpose: "The distance of a phase.",
+        belongs: always,
+        render: polar::distance,
+    },
 ];
+
+/// What travels beside a pixel's vector through the angle unit: first, last, saturated and the offset sum.
+fn beside_bits(pipeline: &Pipeline) -> u32 {
+    3 + pipeline.derived().offset_sum.bits
+}
+
+/// The modules below the top of `pipeline`: noun and purpose, in the order in which they are listed.
+pub fn modules(pipeline: &Pipeline) -> Vec<(&'static str, &'static str)> {
+    let own = MODULES.iter().filter(|module| (module.belongs)(pipeline));
+    let architecture = pipeline.derived().angle.architecture;
+    let angle = ANGLE_MODULES.iter().filter(|module| (module.belongs)(architecture));
+    own.map(|module| (module.noun, module.purpose))
+        .chain(angle.map(|module| (module.noun, module.purpose)))
+        .collect()
+}
+
+/// The Verilog files of the angle unit alone, its top module `<prefix>_angle` last, and the file list.
+pub fn angle_artifacts(source: &AngleSource, spec: &str) -> Vec<Artifact> {
+    let mut artifacts = angle_files(source, spec);
+    let top = format!("{}_angle", source.prefix);
+    artifacts.push(file_list(&artifacts, &top, spec));
+    artifacts
+}
+
+fn angle_files(source: &AngleSource, spec: &str) -> Vec<Artifact> {
+    let belong = ANGLE_MODULES.iter().filter(|module| (module.belongs)(source.unit.architecture));
+    belong
+        .map(|module| {
+            let text = (module.render)(source, text::banner(spec, module.purpose));
+            Artifact::new(format!("rtl/{}_{}.v", source.prefix, module.noun), text::finished(text))
+        })
+        .collect()
+}
+
+fn file_list(artifacts: &[Artifact], top: &str, spec: &str) -> Artifact {
+    let list: String = artifacts.iter().map(|artifact| format!("{}\n", artifact.path)).collect();
+    let note = format!(
+        "// Generated by `vuris generate --spec {spec}`: the core's Verilog-2005 files, the top module {top} last.\n"
+    );
+    Artifact::new("rtl/files.f", note + &list)
+}
 
 /// The Verilog files, the top module last, and the file list.
 pub fn rtl_artifacts(source: &Source) -> Vec<Artifact> {
-    let prefix = source.pipeline.prefix();
+    let pipeline = source.pipeline;
+    let prefix = pipeline.prefix();
     let mut artifacts: Vec<Artifact> = MODULES
         .iter()
+        .filter(|module| (module.belongs)(pipeline))
         .map(|module| {
-            let text = (module.render)(source, text::banner(source, module.purpose));
+            let text = (module.render)(source, text::banner(source.spec, module.purpose));
             Artifact::new(format!("rtl/{prefix}_{}.v", module.noun), text::finished(text))
         })
         .collect();
-    let banner = text::banner(source, "The whole pipeline.");
-    let top = source.pipeline.top();
+    let angle =
+        AngleSource { prefix: &prefix, unit: &pipeline.derived().angle, meta_bits: beside_bits(pipeline) };
+    artifacts.extend(angle_files(&angle, source.spec));
+    let banner = text::banner(source.spec, "The whole pipeline.");
+    let top = pipeline.top();
     artifacts.push(Artifact::new(format!("rtl/{top}.v"), text::finished(top::pipeline(source, banner))));
-    let list: String = artifacts.iter().map(|artifact| format!("{}\n", artifact.path)).collect();
-    let note = format!(
-        "// Generated by `vuris generate --spec {}`: the core's Verilog-2005 files, the top module {top} last.\n",
-        source.spec
-    );
-    artifacts.push(Artifact::new("rtl/files.f", note + &list));
+    artifacts.push(file_list(&artifacts, &top, source.spec));
     artifacts
 }
 
@@ -118,23 +174,18 @@ pub fn all_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spec::PRESETS;
 
     #[test]
-    fn every_template_has_a_module_and_every_module_is_instantiated() {
-        let pipeline = Pipeline::named("vuris").unwrap();
-        let artifacts = rtl_artifacts(&Source { pipeline: &pipeline, spec: "vuris" });
-        let templates = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/hdl-templates")).unwrap();
-        for template in templates {
-            let noun = template.unwrap().file_name().to_string_lossy().trim_end_matches(".v").to_owned();
-            let known = MODULES.iter().any(|module| module.noun == noun);
-            assert!(
-                known || ["banner", "pipeline"].contains(&noun.as_str()),
-                "no module for template {noun}"
-            );
-        }
-        for module in MODULES {
-            let instance = format!("  vuris_{} ", module.noun);
-            assert!(artifacts.iter().any(|artifact| artifact.text.contains(&instance)), "{}", module.noun);
+    fn every_module_of_a_pipeline_is_instantiated() {
+        for name in PRESETS {
+            let pipeline = Pipeline::named(name.name).unwrap();
+            let artifacts = rtl_artifacts(&Source { pipeline: &pipeline, spec: name.name });
+            let prefix = pipeline.prefix();
+            for (noun, _) in modules(&pipeline) {
+                let instance = format!("  {prefix}_{noun} ");
+                assert!(artifacts.iter().any(|artifact| artifact.text.contains(&instance)), "{noun}");
+            }
         }
     }
 

@@ -1,33 +1,10 @@
-//! Template contexts from the turned vector to the result: phase, amplitude, offset, distance.
+//! Template contexts from the turned vector to the result: amplitude, offset, distance.
 
 use super::Source;
-use super::meta::Meta;
 use super::text::{counter_bits, literal, range, table, zero_extended};
 use crate::model;
 use crate::spec::{ScaledConstant, Word, exact};
 use askama::Template;
-
-#[derive(Template)]
-#[template(path = "phase.v", escape = "none")]
-struct Phase {
-    banner: String,
-    prefix: String,
-    angle_bits: u32,
-    guard_bits: u32,
-    phase_bits: u32,
-}
-
-pub(super) fn phase(source: &Source, banner: String) -> askama::Result<String> {
-    let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
-    Phase {
-        banner,
-        prefix: pipeline.prefix(),
-        angle_bits: derived.angle.bits,
-        guard_bits: pipeline.cordic.angle_guard_bits,
-        phase_bits: derived.phase.bits,
-    }
-    .render()
-}
 
 /// Bits of a constant's multiplier.
 fn factor_bits(factor: ScaledConstant) -> u32 {
@@ -59,13 +36,14 @@ struct Amplitude {
 pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<String> {
     let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
     let factor = derived.amplitude_factor;
-    let shift_bits = Meta::new(source).shift_bits;
+    let angle = &derived.angle;
+    let (shift_bits, length) = (angle.shift_bits(), angle.length_word());
     let factor_bits = factor_bits(factor);
-    let product_bits = derived.cordic_x.bits + factor_bits;
+    let product_bits = length.bits + factor_bits;
     let least_places = factor.shift - 1;
     let places_bits = counter_bits(least_places as usize + (1 << shift_bits) - 1);
-    let rows = [(1.2, 0), (2.0, 3), (1.0, derived.normaliser.magnitude_bits - 1)].map(|(x, shift)| {
-        let x = (x * f64::from(derived.fraction_bits).exp2()) as i64;
+    let rows = [(1.2, 0), (2.0, 3), (1.0, angle.magnitude_bits - 1)].map(|(x, shift)| {
+        let x = (x * f64::from(angle.fraction_bits).exp2()) as i64;
         let amplitude = model::amplitude(pipeline, x, shift, false);
         vec![x.to_string(), shift.to_string(), amplitude.to_string()]
     });
@@ -75,16 +53,13 @@ pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<Strin
         fraction_bits: pipeline.output.amplitude_fraction_bits,
         multiplier: factor.multiplier,
         factor_shift: factor.shift,
-        exponent: i64::from(pipeline.output.amplitude_fraction_bits)
-            + i64::from(derived.normaliser.magnitude_bits)
+        exponent: i64::from(pipeline.output.amplitude_fraction_bits) + i64::from(angle.magnitude_bits)
             - 1
-            - i64::from(derived.fraction_bits),
-        gain: format!("{:.9}", exact::cordic_gain_f64(pipeline.cordic.iterations)),
-        divisor: pipeline.modulation.scheme.gain
-            * derived.in_phase_factor
-            * pipeline.modulation.frames_per_step as i64,
+            - i64::from(angle.fraction_bits),
+        gain: format!("{:.9}", exact::angle_gain_f64(angle.metric, angle.stages.x_iterations)),
+        divisor: pipeline.modulation.scheme.gain * pipeline.modulation.frames_per_step as i64,
         rows: table(&rows),
-        x_bits: derived.cordic_x.bits,
+        x_bits: length.bits,
         shift_bits,
         factor_bits,
         amplitude_bits: derived.amplitude.bits,

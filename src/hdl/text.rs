@@ -1,8 +1,8 @@
 //! Fragments of Verilog: literals, ranges, extensions, banners.
 
-use super::Source;
 use crate::spec::Word;
 use askama::Template;
+use std::fmt::Display;
 
 #[derive(Template)]
 #[template(path = "banner.v", escape = "none")]
@@ -12,8 +12,8 @@ struct Banner<'a> {
 }
 
 /// The first lines of a generated file.
-pub(super) fn banner(source: &Source, purpose: &str) -> String {
-    let banner = Banner { purpose, spec: source.spec };
+pub(super) fn banner(spec: &str, purpose: &str) -> String {
+    let banner = Banner { purpose, spec };
     finished(banner.render()).trim_end().to_owned()
 }
 
@@ -31,6 +31,16 @@ pub(super) fn finished(rendered: askama::Result<String>) -> String {
 /// The range `[bits-1:0]`.
 pub(super) fn range(bits: u32) -> String {
     format!("[{}:0]", bits - 1)
+}
+
+/// The range `[high:low]`.
+pub(super) fn slice(high: impl Display, low: impl Display) -> String {
+    format!("[{high}:{low}]")
+}
+
+/// The index `[place]`.
+pub(super) fn bit(place: impl Display) -> String {
+    format!("[{place}]")
 }
 
 /// An unsigned literal.

@@ -2,7 +2,6 @@
 
 use super::Source;
 use super::control::Counters;
-use super::meta::Meta;
 use super::text::{literal, range};
 use crate::spec::Pipeline;
 use askama::Template;
@@ -42,6 +41,7 @@ pub fn result_fields(pipeline: &Pipeline) -> Vec<ResultField> {
     let mut low = 0;
     fields
         .into_iter()
+        .filter(|field| output.amplitude || field.0 != "amplitude")
         .map(|(name, bits, meaning)| {
             let field = ResultField { name, low, bits, meaning };
             // The flags share a byte.
@@ -88,12 +88,9 @@ struct Top {
     in_phase_range: String,
     quadrature_range: String,
     offset_sum_range: String,
-    x_range: String,
-    y_range: String,
-    meta_range: String,
-    vector_range: String,
+    with_amplitude: bool,
+    length_range: String,
     shift_range: String,
-    angle_range: String,
     phase_range: String,
     amplitude_range: String,
     offset_range: String,
@@ -111,10 +108,7 @@ fn packing(pipeline: &Pipeline) -> Vec<String> {
         if gap > 0 {
             parts.push(format!("{gap}'d0,"));
         }
-        // The distance is the delay's own output; the others have waited for it.
-        let wire =
-            if field.name == "distance" { "distance".to_owned() } else { format!("result_{}", field.name) };
-        parts.push(format!("{wire}{}", if field.low > 0 { "," } else { "" }));
+        parts.push(format!("result_{}{}", field.name, if field.low > 0 { "," } else { "" }));
         top = field.low;
     }
     parts
@@ -123,7 +117,6 @@ fn packing(pipeline: &Pipeline) -> Vec<String> {
 pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String> {
     let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
     let counters = Counters::new(source);
-    let meta = Meta::new(source);
     let sample_bits = derived.sample.bits;
     let rows: Vec<FieldRow> = result_fields(pipeline)
         .into_iter()
@@ -149,19 +142,16 @@ pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String
         result_bus: range(result_bits(pipeline)),
         result_bits: result_bits(pipeline),
         packing: packing(pipeline),
-        result_delay_bits: 4 + derived.offset.bits + derived.amplitude.bits + derived.phase.bits,
+        result_delay_bits: 4 + derived.phase.bits,
         drain_range: range(counters.address_bits + 1),
         address_range: range(counters.address_bits),
         step_range: range(counters.step_bits),
         in_phase_range: range(derived.in_phase.bits),
         quadrature_range: range(derived.quadrature.bits),
         offset_sum_range: range(derived.offset_sum.bits),
-        x_range: range(derived.x.bits),
-        y_range: range(derived.y.bits),
-        meta_range: range(meta.vector_bits),
-        vector_range: range(derived.cordic_x.bits),
-        shift_range: range(meta.shift_bits),
-        angle_range: range(derived.angle.bits),
+        with_amplitude: pipeline.output.amplitude,
+        length_range: range(derived.angle.length_word().bits),
+        shift_range: range(derived.angle.shift_bits()),
         phase_range: range(derived.phase.bits),
         amplitude_range: range(derived.amplitude.bits),
         offset_range: range(derived.offset.bits),

@@ -5,24 +5,18 @@
 
 mod accumulator;
 mod amplitude;
-mod cordic;
+mod angle;
 mod distance;
 mod framing;
-mod normaliser;
 mod offset;
-mod phase;
 mod pipeline;
-mod scaling;
 mod stream;
 
 pub use accumulator::{Accumulator, Sums};
 pub use amplitude::amplitude;
-pub use cordic::{Rotated, cordic};
+pub use angle::{Normalised, Rotated, Turned, normalise, rotate, rotate_seen, scaled_start, turn};
 pub use distance::distance;
 pub use framing::{Framing, FramingEvent, PixelSlot};
-pub use normaliser::{Normalised, Octant, normalise};
 pub use offset::offset;
-pub use phase::phase;
 pub use pipeline::{PipelineModel, PixelRecord, pixel};
-pub use scaling::{Vector, scale};
 pub use stream::{Beat, StreamEvent, beats_of_set};

@@ -2,10 +2,8 @@
 
 use super::accumulator::{Accumulator, Sums};
 use super::framing::Framing;
-use super::normaliser::normalise;
-use super::scaling::{Vector, scale};
 use super::stream::StreamEvent;
-use super::{amplitude, cordic, distance, offset, phase};
+use super::{amplitude, distance, offset, turn};
 use crate::spec::Pipeline;
 
 /// What the stages held for one pixel of one set.
@@ -13,8 +11,6 @@ use crate::spec::Pipeline;
 pub struct PixelRecord {
     /// Accumulator: the sums as they drain.
     pub sums: Sums,
-    /// Scaling: the vector.
-    pub vector: Vector,
     /// Phase, a fraction of a turn in the phase word.
     pub phase: i64,
     /// Amplitude, in its unit.
@@ -29,19 +25,15 @@ pub struct PixelRecord {
 
 /// A pixel's results from its sums.
 pub fn pixel(pipeline: &Pipeline, sums: Sums) -> PixelRecord {
-    let vector = scale(pipeline, sums);
-    let normalised = normalise(pipeline, vector);
-    let rotated = cordic(pipeline, normalised);
-    let phase = phase(pipeline, rotated.angle, normalised.octant, normalised.zero);
-    let amplitude = amplitude(pipeline, rotated.x, normalised.shift, normalised.zero);
+    let turned = turn(&pipeline.derived().angle, sums.in_phase, sums.quadrature);
+    let amplitude = amplitude(pipeline, turned.length, turned.shift, turned.zero);
     PixelRecord {
         sums,
-        vector,
-        phase,
+        phase: turned.phase,
         amplitude,
         offset: offset(pipeline, sums.offset),
-        distance: distance(pipeline, phase),
-        valid: !normalised.zero && amplitude >= pipeline.derived().minimum_amplitude,
+        distance: distance(pipeline, turned.phase),
+        valid: !turned.zero && amplitude >= pipeline.derived().minimum_amplitude,
     }
 }
 

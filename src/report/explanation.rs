@@ -1,15 +1,18 @@
 //! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
 
 use crate::hdl::{result_bits, result_fields};
-use crate::spec::{Irrational, Pipeline, Word, exact};
+use crate::spec::{Architecture, Pipeline, StageWord, Word, exact};
 use crate::units::unambiguous_range_m;
 use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
 
 /// A table of quantity, value and reason.
-struct Section {
-    title: &'static str,
-    rows: Vec<[String; 3]>,
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Section {
+    /// What it is about.
+    pub title: &'static str,
+    /// Quantity, value and reason of each row.
+    pub rows: Vec<[String; 3]>,
 }
 
 impl Section {
@@ -34,15 +37,18 @@ fn word(word: Word) -> String {
     format!("{} bits {}", word.bits, if word.signed { "signed" } else { "unsigned" })
 }
 
-/// The tables of `pipeline`.
+/// The tables of `pipeline`, in the order in which the data meets what they are about.
+pub fn sections(pipeline: &Pipeline) -> Vec<Section> {
+    vec![input(pipeline), accumulator(pipeline), angle(pipeline), output(pipeline), errors(pipeline)]
+}
+
+/// The tables of `pipeline` as text.
 pub fn explanation(pipeline: &Pipeline) -> String {
-    let sections =
-        [input(pipeline), accumulator(pipeline), vector(pipeline), output(pipeline), errors(pipeline)];
     let mut text = format!(
         "{}: scheme {}, {}\n",
         pipeline.name, pipeline.modulation.scheme.name, pipeline.modulation.scheme.reference
     );
-    for section in sections {
+    for section in sections(pipeline) {
         text.push('\n');
         text.push_str(&section.text());
     }
@@ -115,69 +121,74 @@ fn accumulator(pipeline: &Pipeline) -> Section {
     section
 }
 
-fn vector(pipeline: &Pipeline) -> Section {
+fn angle(pipeline: &Pipeline) -> Section {
     let (derived, cordic) = (pipeline.derived(), &pipeline.cordic);
-    let mut section = Section::new("scaling, normaliser, CORDIC");
-    let (n, d) = (derived.quadrature_factor, derived.in_phase_factor);
-    match pipeline.modulation.scheme.irrational {
-        Irrational::One => section.row("factors", "1, 1", "the weights are the true ones"),
-        Irrational::Sqrt3 => section.row(
-            "factors of quadrature, in-phase",
-            format!("{n}, {d}"),
-            format!(
-                "{n}^2 - 3 x {d}^2 = {}, so {n}/{d} exceeds sqrt(3) by less than 1/(6 x {d}^2) = {:.2e} of itself",
-                n * n - 3 * d * d,
-                derived.factor_error
-            ),
-        ),
-    }
-    section.row("x", word(derived.x), "in-phase sum x its factor");
-    section.row("y", word(derived.y), "quadrature sum x its factor");
-    let normaliser = &derived.normaliser;
+    let angle = &derived.angle;
+    let mut section = Section::new("angle unit");
     section.row(
-        "larger magnitude",
-        format!("{} bits", normaliser.magnitude_bits),
-        "of x and y, without sign",
+        "architecture",
+        match angle.architecture {
+            Architecture::Unrolled => "unrolled".to_owned(),
+            Architecture::Folded { stages, rounds } => format!("a ring of {stages} stages, {rounds} rounds"),
+            Architecture::Iterative => "one iteration a clock".to_owned(),
+        },
+        format!("a vector every {} clocks", angle.clocks_a_vector(0)),
     );
     section.row(
-        "shift stages",
-        format!("{:?}", normaliser.shifts),
-        "together they reach every leading-zero count",
+        "metric",
+        angle.metric,
+        "the angle is that of (in-phase, sqrt(metric) x quadrature): no multiplier",
     );
+    section.row(
+        "magnitudes",
+        format!("{} bits", angle.magnitude_bits),
+        "of both sums, without sign; a negative one is complemented",
+    );
+    section.row("shifts", format!("{:?}", angle.shifts), "together they reach every number of leading zeros");
     section.row(
         "normalised to",
-        format!("{} fraction bits", derived.fraction_bits),
+        format!("{} fraction bits", angle.fraction_bits),
         format!(
             "phase bits {} + vector guard bits {}; {}",
             pipeline.output.phase_bits,
             cordic.vector_guard_bits,
-            match (normaliser.pad_bits, normaliser.drop_bits) {
-                (pad, 0) => format!("{pad} zeros appended, nothing lost"),
-                (_, drop) => format!("{drop} bits rounded off"),
+            match (angle.pad_bits(), angle.drop_bits()) {
+                (pad, 0) => format!("{pad} bits appended, nothing lost"),
+                (_, drop) => format!("{drop} bits cut off"),
             }
         ),
     );
+    let words = |words: &[StageWord]| {
+        let text = |word: &StageWord| format!("{}.{}", word.bits, word.fraction_bits);
+        match (words.first(), words.last()) {
+            (Some(first), Some(last)) => format!("{} to {}", text(first), text(last)),
+            _ => String::new(),
+        }
+    };
+    section.row("x, bits.fraction bits", words(&angle.stages.x), "from iteration 0 to the last, unsigned");
+    section.row("y, bits.fraction bits", words(&angle.stages.y), "from iteration 0 to the last, signed");
     section.row(
-        "CORDIC gain",
-        format!("{:.9}", exact::cordic_gain_f64(cordic.iterations)),
-        "product of sqrt(1 + 2^-2i) from i = 1: the octant fold saves i = 0",
+        "iterations",
+        angle.iterations,
+        format!("by atan sqrt(metric) / 2^i; x follows the first {}", angle.stages.x_iterations),
     );
-    section.row("CORDIC x", word(derived.cordic_x), "at most 2 sqrt(2) x 1.16445 < 4, always positive");
     section.row(
-        "CORDIC y",
-        word(derived.cordic_y),
-        "at most 2 before, 2 sqrt(2) x 1.16445 x sin 45 < 2.33 after an iteration",
+        "gain",
+        format!("{:.9}", exact::angle_gain_f64(angle.metric, angle.stages.x_iterations)),
+        "product of sqrt(1 + metric / 4^i), from i = 0, and the middle of what the last angles leave",
     );
-    section.row("angle", word(derived.angle), "sum of all angles < 0.153 turn, so a quarter turn either way");
-    section.row("iterations", cordic.iterations, "by atan 2^-1 ... 2^-iterations");
+    section.row("angle", format!("{} bits", angle.angle_bits), "phase bits and angle guard bits");
+    section.row(
+        "tables of angles",
+        angle.groups.len(),
+        "sums of the angles of a few iterations, by their directions",
+    );
     section.row(
         "latency",
         format!("{} clocks", derived.latency_clocks),
         format!(
-            "from a pixel's sums at the memory's output to its result: scaling 1, magnitude 1, swap 1, shifts {}, rounding {}, iterations {}, polar 2, distance 2, output 1",
-            normaliser.shifts.len(),
-            u32::from(normaliser.drop_bits > 0),
-            cordic.iterations
+            "from a pixel's sums at the memory's output to its result: angle {}, amplitude, offset and distance 2, output 1",
+            angle.latency_clocks()
         ),
     );
     section
@@ -199,7 +210,7 @@ fn output(pipeline: &Pipeline) -> Section {
     section.row(
         "amplitude factor",
         factor(derived.amplitude_factor),
-        "undoes the gains of CORDIC and scheme, the in-phase factor and the frames a step",
+        "undoes the gains of CORDIC and scheme, and the frames a step",
     );
     section.row(
         "offset factor",

@@ -1,10 +1,9 @@
 //! Worst-case errors of the pipeline's arithmetic, derived, against exact arithmetic on the same integer frames.
 //!
-//! Vectors are normalised before the CORDIC (its x is at least 1.0 = 2^fraction ulp), so the phase bound holds
-//! for every amplitude down to one code.
+//! Vectors are normalised before they are turned, so the phase bound holds for every amplitude down to one code.
 
 use super::{Pipeline, exact};
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, TAU};
+use std::f64::consts::TAU;
 
 /// One source of phase error.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,74 +35,15 @@ impl ErrorBudget {
     pub(super) fn new(pipeline: &Pipeline) -> Self {
         let derived = pipeline.derived();
         let phase_bits = pipeline.output.phase_bits;
-        let codes_a_rad = 2f64.powi(phase_bits as i32) / TAU;
-        let ulp = 2f64.powi(-(derived.fraction_bits as i32));
-        // Two coordinates, each off by at most half an ulp.
-        let half_ulp_vector = FRAC_1_SQRT_2 * ulp;
-
-        let rounding_of_input = if derived.normaliser.drop_bits > 0 { half_ulp_vector } else { 0.0 };
-        let walk = Walk::new(pipeline.cordic.iterations, half_ulp_vector, 1.0 - rounding_of_input);
-        let angle_bits = phase_bits + pipeline.cordic.angle_guard_bits;
-        let table_codes: f64 = (1..)
-            .zip(&derived.angle_table)
-            .map(|(i, &angle)| (exact::atan_of_power_of_two_f64(i, angle_bits) - angle as f64).abs())
-            .sum::<f64>()
-            / 2f64.powi(pipeline.cordic.angle_guard_bits as i32);
-
-        let phase = vec![
-            Contribution {
-                name: "irrational factor",
-                phase_codes: derived.factor_error / 2.0 * codes_a_rad,
-                why: format!(
-                    "{}/{} for {}, relative error {:.1e}; a scale error e of one coordinate turns a vector by at most e/2",
-                    derived.quadrature_factor,
-                    derived.in_phase_factor,
-                    if derived.quadrature_factor == 1 { "1" } else { "sqrt(3)" },
-                    derived.factor_error
-                ),
-            },
-            Contribution {
-                name: "rounding of the normalised vector",
-                phase_codes: rounding_of_input * codes_a_rad,
-                why: match derived.normaliser.drop_bits {
-                    0 => "none: the CORDIC's word holds every bit of the sums".to_owned(),
-                    bits => format!("{bits} bits rounded off, half an ulp of 2^-{} each coordinate", derived.fraction_bits),
-                },
-            },
-            Contribution {
-                name: "rounding of x and y",
-                phase_codes: walk.turned_rad * codes_a_rad,
-                why: "half an ulp each coordinate and iteration, over a vector not shorter than 1.0 times the gain so far".to_owned(),
-            },
-            Contribution {
-                name: "remaining angle",
-                phase_codes: walk.remaining_rad * codes_a_rad,
-                why: format!(
-                    "atan 2^-{} after the last iteration, and the wrong decisions that rounding can cause",
-                    pipeline.cordic.iterations
-                ),
-            },
-            Contribution {
-                name: "rounding of the angle table",
-                phase_codes: table_codes,
-                why: "sum of the table's own rounding errors, each known".to_owned(),
-            },
-            Contribution {
-                name: "rounding to the phase word",
-                phase_codes: 0.5,
-                why: "half a code".to_owned(),
-            },
-        ];
+        let angle = derived.angle.budget();
 
         let relative = |value: f64, truth: f64| (value / truth - 1.0).abs();
-        let gain = exact::cordic_gain_f64(pipeline.cordic.iterations);
+        let gain = exact::angle_gain_f64(derived.angle.metric, derived.angle.stages.x_iterations);
         let exponent = f64::from(pipeline.output.amplitude_fraction_bits)
-            + f64::from(derived.normaliser.magnitude_bits)
+            + f64::from(derived.angle.magnitude_bits)
             - 1.0
-            - f64::from(derived.fraction_bits);
-        let divisor = (pipeline.modulation.scheme.gain
-            * derived.in_phase_factor
-            * pipeline.modulation.frames_per_step as i64) as f64;
+            - f64::from(derived.angle.fraction_bits);
+        let divisor = (pipeline.modulation.scheme.gain * pipeline.modulation.frames_per_step as i64) as f64;
         let amplitude_truth = exponent.exp2() / (gain * divisor);
         let offset_truth = f64::from(pipeline.output.offset_fraction_bits).exp2()
             / (pipeline.modulation.scheme.offset_gain() * pipeline.modulation.frames_per_step as i64) as f64;
@@ -111,14 +51,9 @@ impl ErrorBudget {
             / pipeline.output.distance_unit_m
             / f64::from(phase_bits).exp2();
         Self {
-            phase,
-            // x falls short of |v| K by 1 − cos of the remaining angle, is off by the vectors' rounding, and a scale error of y
-            // changes |v| by at most its own size.
+            phase: angle.phase,
             amplitude_relative: relative(derived.amplitude_factor.value(), amplitude_truth)
-                + derived.factor_error
-                + walk.turned_rad
-                + rounding_of_input
-                + walk.remaining_rad * walk.remaining_rad / 2.0
+                + angle.length_relative
                 + 1e-14,
             offset_relative: relative(derived.offset_factor.value(), offset_truth) + 1e-14,
             distance_relative: relative(derived.distance_factor.value(), distance_truth) + 1e-14,
@@ -149,34 +84,6 @@ impl ErrorBudget {
     /// Worst case of the distance in its codes against the distance of the same phase word, at `codes` of them.
     pub fn distance_codes(&self, codes: f64) -> f64 {
         0.5 + codes * self.distance_relative
-    }
-}
-
-/// How far rounding can lead the iteration astray.
-struct Walk {
-    /// Sum of the angles by which the roundings of x and y can turn the vector.
-    turned_rad: f64,
-    /// Bound on the vector's angle after the last iteration.
-    remaining_rad: f64,
-}
-
-impl Walk {
-    /// `rounding`: norm of one iteration's error vector; `least`: least norm of the vector before the first.
-    ///
-    /// Let B bound |angle| before iteration i. The decision is right for the vector as it stands, so after it
-    /// |angle| ≤ max(α_i, B − α_i) + δ_i, with δ_i the turn by rounding. B starts at 45° (octant fold) plus the rounding of
-    /// the input, which moves both.
-    fn new(iterations: u32, rounding: f64, least: f64) -> Self {
-        let (mut remaining_rad, mut turned_rad, mut norm) = (FRAC_PI_4 + rounding, 0.0, least);
-        for i in 1..=iterations {
-            let tangent = 2f64.powi(-(i as i32));
-            let alpha = tangent.atan();
-            norm = norm * (1.0 + tangent * tangent).sqrt() - rounding;
-            let delta = (rounding / norm).asin();
-            turned_rad += delta;
-            remaining_rad = alpha.max(remaining_rad - alpha) + delta;
-        }
-        Self { turned_rad, remaining_rad }
     }
 }
 

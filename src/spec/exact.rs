@@ -6,12 +6,12 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 /// A binary floating-point number of [`PRECISION_BITS`] bits.
-type Real = FBig<HalfEven, 2>;
+pub(super) type Real = FBig<HalfEven, 2>;
 
 /// Far more than the 63 bits of the widest register: rounding to an integer is then the only rounding that counts.
-const PRECISION_BITS: usize = 192;
+pub(super) const PRECISION_BITS: usize = 192;
 
-fn integer(value: i64) -> Real {
+pub(super) fn integer(value: i64) -> Real {
     Real::from(value).with_precision(PRECISION_BITS).value()
 }
 
@@ -20,38 +20,26 @@ fn of_f64(value: f64) -> Real {
     Real::try_from(value).expect("callers pass finite numbers").with_precision(PRECISION_BITS).value()
 }
 
-fn power_of_two(exponent: i64) -> Real {
+pub(super) fn power_of_two(exponent: i64) -> Real {
     Real::from_parts(1.into(), exponent as isize).with_precision(PRECISION_BITS).value()
 }
 
 /// Nearest integer (ties away from zero, which no constant here meets).
-fn rounded(value: &Real) -> i64 {
+pub(super) fn rounded(value: &Real) -> i64 {
     i64::try_from(value.round().to_int().value()).expect("constants are bounded by their words")
 }
 
-/// atan(2^−`shift`) as a fraction of a turn, times 2^`bits`, rounded to the nearest integer.
-pub fn atan_of_power_of_two(shift: u32, bits: u32) -> i64 {
-    let turn = Real::pi(PRECISION_BITS) * integer(2);
-    rounded(&(power_of_two(-i64::from(shift)).atan() / turn * power_of_two(bits.into())))
+/// The angle unit's gain: Π √(1 + metric · 2^−2i) over i = 0 … `x_iterations`, and the middle of the lengths that the last
+/// angles, up to √metric · 2^−`x_iterations`, leave of it.
+fn angle_gain(metric: i64, x_iterations: u32) -> Real {
+    let stretch = |i: u32| integer(1) + integer(metric) * power_of_two(-2 * i64::from(i));
+    let squared = (0..=x_iterations).map(stretch).fold(integer(1), |product, factor| product * factor);
+    squared.sqrt() * (integer(1) + integer(1) / stretch(x_iterations).sqrt()) / integer(2)
 }
 
-/// The same angle unrounded, in units of 2^−`bits` turn, for the error budget.
-pub fn atan_of_power_of_two_f64(shift: u32, bits: u32) -> f64 {
-    let turn = Real::pi(PRECISION_BITS) * integer(2);
-    (power_of_two(-i64::from(shift)).atan() / turn * power_of_two(bits.into())).to_f64().value()
-}
-
-/// The CORDIC's gain Π √(1 + 2^−2i) over i = 1 … `iterations` (Volder 1959; Walther 1971).
-fn cordic_gain(iterations: u32) -> Real {
-    let squared = (1..=iterations)
-        .map(|i| integer(1) + power_of_two(-2 * i64::from(i)))
-        .fold(integer(1), |product, factor| product * factor);
-    squared.sqrt()
-}
-
-/// The CORDIC's gain as an `f64`, for reports.
-pub fn cordic_gain_f64(iterations: u32) -> f64 {
-    cordic_gain(iterations).to_f64().value()
+/// The angle unit's gain as an `f64`, for reports.
+pub fn angle_gain_f64(metric: i64, x_iterations: u32) -> f64 {
+    angle_gain(metric, x_iterations).to_f64().value()
 }
 
 /// A rational or irrational factor as hardware multiplies by it: value ≈ multiplier · 2^−shift, rounding half up.
@@ -95,9 +83,16 @@ impl ScaledConstant {
     }
 }
 
-/// 2^`exponent` / (CORDIC gain · `divisor`), to `bits` significant bits.
-pub fn amplitude_factor(iterations: u32, divisor: i64, exponent: i64, bits: u32) -> Option<ScaledConstant> {
-    ScaledConstant::new(&(power_of_two(exponent) / (cordic_gain(iterations) * integer(divisor))), bits)
+/// 2^`exponent` / (the angle unit's gain · `divisor`), to `bits` significant bits.
+pub fn amplitude_factor(
+    metric: i64,
+    x_iterations: u32,
+    divisor: i64,
+    exponent: i64,
+    bits: u32,
+) -> Option<ScaledConstant> {
+    let gain = angle_gain(metric, x_iterations) * integer(divisor);
+    ScaledConstant::new(&(power_of_two(exponent) / gain), bits)
 }
 
 /// 2^`exponent` / `divisor`, to `bits` significant bits.
@@ -151,14 +146,6 @@ mod tests {
         }
         assert_eq!(sqrt3_ratio(4e-6), (362, 209));
         assert_eq!(sqrt3_ratio(1e-6), (1351, 780));
-    }
-
-    /// Expected values: Python's `decimal` at 60 digits, atan by its Taylor series and π by Machin's formula.
-    #[test]
-    fn angles_are_the_series_values() {
-        assert_eq!(atan_of_power_of_two(1, 40), 81_134_951_838); // …837.949346920134
-        assert_eq!(atan_of_power_of_two(10, 20), 163); // 162.974609917880
-        assert_eq!(atan_of_power_of_two(3, 24), 332_050); // 332049.828580713
     }
 
     #[test]

@@ -1,23 +1,20 @@
 //! The specification's TOML file: reading, checking and writing.
 
-use super::{
-    Cordic, Modulation, Output, PRESETS, Pipeline, Sensor, Specification, Word, refused, scheme, scheme_names,
-};
+use super::angle::{read_cordic, write_cordic};
+use super::{Modulation, Output, Sensor, Specification, Word, refused, scheme, scheme_names};
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
 use std::path::Path;
 
 const FORMAT: &str = "vuris-pipeline/1";
 
-/// Reads the file at `path`.
-pub(super) fn read(path: &str) -> Result<Pipeline> {
-    let text = read_text(Path::new(path)).map_err(|error| {
-        let presets = PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
+/// The text of the file at `path`; `presets` are the names that would have done, too.
+pub(super) fn read(path: &str, presets: &str) -> Result<String> {
+    read_text(Path::new(path)).map_err(|error| {
         Problem::io(Path::new(path), "read the specification", &error)
             .expected(format_args!("a file, or one of the presets {presets}"))
             .remedy("`vuris explain --spec vuris --toml > my.toml` writes a file to start from")
-    })?;
-    Pipeline::parse(path, &text)
+    })
 }
 
 /// The text of a regular file of a plausible size: a device would be read for ever.
@@ -67,16 +64,12 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let cordic = top.section("cordic")?;
-    cordic.only(&["iterations", "vector_guard_bits", "angle_guard_bits"])?;
-    let cordic = Cordic {
-        iterations: cordic.integer("iterations", 4..=30)? as u32,
-        vector_guard_bits: cordic.integer("vector_guard_bits", 0..=8)? as u32,
-        angle_guard_bits: cordic.integer("angle_guard_bits", 1..=8)? as u32,
-    };
+    let cordic = read_cordic(&cordic)?;
 
     let output = top.section("output")?;
     output.only(&[
         "phase_bits",
+        "amplitude",
         "amplitude_fraction_bits",
         "offset_fraction_bits",
         "distance_unit_m",
@@ -84,6 +77,7 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     ])?;
     let output = Output {
         phase_bits: output.integer("phase_bits", 8..=24)? as u32,
+        amplitude: output.flag_or("amplitude", true)?,
         amplitude_fraction_bits: output.integer("amplitude_fraction_bits", 0..=8)? as u32,
         offset_fraction_bits: output.integer("offset_fraction_bits", 0..=8)? as u32,
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
@@ -92,16 +86,23 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     Ok(Specification { name, sensor, modulation, cordic, output })
 }
 
-const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
+pub(super) const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
+
+/// Refuses a name that cannot begin the names of Verilog modules.
+pub(super) fn check_name(source: &str, name: &str) -> Result<()> {
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
+    if begins_well && name.chars().all(letter) && name.len() <= 32 {
+        Ok(())
+    } else {
+        Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE))
+    }
+}
 
 /// What only shows between fields, and what a specification made in code could get wrong.
 pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
     let Specification { name, sensor, .. } = specification;
-    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
-    if !begins_well || !name.chars().all(letter) || name.len() > 32 {
-        return Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE));
-    }
+    check_name(source, name)?;
     for (field, value, allowed) in
         [("sensor.width", sensor.width, 2..=4096), ("sensor.height", sensor.height, 1..=4096)]
     {
@@ -146,10 +147,8 @@ pub(super) fn write(specification: &Specification) -> String {
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
          scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
-         \n[cordic]\n\
-         iterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\n\
-         \n[output]\n\
-         phase_bits = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
+         \n{}\n[output]\n\
+         phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
          distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n",
         sensor.width,
         sensor.height,
@@ -159,10 +158,9 @@ pub(super) fn write(specification: &Specification) -> String {
         modulation.scheme.name,
         modulation.frequency_hz,
         modulation.frames_per_step,
-        cordic.iterations,
-        cordic.vector_guard_bits,
-        cordic.angle_guard_bits,
+        write_cordic(cordic),
         output.phase_bits,
+        output.amplitude,
         output.amplitude_fraction_bits,
         output.offset_fraction_bits,
         output.distance_unit_m,

@@ -3,18 +3,25 @@
 //! A [`Pipeline`] is a specification that has been checked, with every number that follows from it
 //! ([`Derived`]). It can only be made by [`Pipeline::new`], so one that exists can be built.
 
+mod angle;
 mod budget;
 mod derived;
+mod design;
 pub mod exact;
 mod file;
 mod presets;
 mod scheme;
 mod word;
 
+pub use angle::{
+    AngleBudget, AngleCore, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic,
+    ONE_ITERATION_A_CLOCK, Rounding, StageWord, Stages, Throughput,
+};
 pub use budget::{Contribution, ErrorBudget};
-pub use derived::{Derived, Normaliser};
+pub use derived::Derived;
+pub use design::Design;
 pub use exact::ScaledConstant;
-pub use presets::{PRESETS, Preset};
+pub use presets::{ANGLE_PRESETS, PRESETS, Preset};
 pub use scheme::{Irrational, SCHEMES, Scheme, scheme, scheme_names};
 pub use word::Word;
 
@@ -47,22 +54,13 @@ pub struct Modulation {
     pub frames_per_step: usize,
 }
 
-/// The CORDIC.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Cordic {
-    /// Iterations, 4 to 30, by the angles atan(2^−1) … atan(2^−iterations).
-    pub iterations: u32,
-    /// Bits of x and y below the phase's resolution, 0 to 8.
-    pub vector_guard_bits: u32,
-    /// Bits of the angle below the phase's resolution, 1 to 8.
-    pub angle_guard_bits: u32,
-}
-
 /// The output words.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
     /// Phase, as a fraction of a turn, 8 to 24 bits.
     pub phase_bits: u32,
+    /// Whether the amplitude is wanted; without it the hardware is smaller.
+    pub amplitude: bool,
     /// Bits of the amplitude below 1 DN, 0 to 8.
     pub amplitude_fraction_bits: u32,
     /// Bits of the offset below 1 DN, 0 to 8.
@@ -117,7 +115,10 @@ impl Pipeline {
     pub fn named(name: &str) -> Result<Self> {
         match PRESETS.iter().find(|preset| preset.name == name) {
             Some(preset) => Self::parse(preset.name, preset.text),
-            None => file::read(name),
+            None => {
+                let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+                Self::parse(name, &file::read(name, &names.join(", "))?)
+            }
         }
     }
 

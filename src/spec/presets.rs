@@ -12,13 +12,21 @@ pub struct Preset {
 /// All presets.
 pub const PRESETS: &[Preset] = &[
     Preset { name: "vuris", text: include_str!("presets/vuris.toml") },
+    Preset { name: "vuris-fast", text: include_str!("presets/vuris-fast.toml") },
     Preset { name: "vuris-four-frame", text: include_str!("presets/vuris-four-frame.toml") },
+];
+
+/// Presets of the angle unit by itself.
+pub const ANGLE_PRESETS: &[Preset] = &[
+    Preset { name: "angle-16", text: include_str!("presets/angle-16.toml") },
+    Preset { name: "angle-16-folded", text: include_str!("presets/angle-16-folded.toml") },
+    Preset { name: "angle-16-iterative", text: include_str!("presets/angle-16-iterative.toml") },
 ];
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spec::Pipeline;
+    use crate::spec::{AngleCore, Pipeline};
 
     #[test]
     fn every_preset_works_and_survives_writing_and_reading() {
@@ -26,6 +34,16 @@ mod tests {
             let pipeline = Pipeline::named(preset.name).unwrap();
             assert_eq!(pipeline.name, preset.name);
             assert_eq!(Pipeline::parse("again", &pipeline.to_toml()).unwrap(), pipeline);
+        }
+    }
+
+    #[test]
+    fn every_angle_preset_works_is_faithful_and_survives_writing_and_reading() {
+        for preset in ANGLE_PRESETS {
+            let core = AngleCore::parse(preset.name, preset.text).unwrap();
+            assert_eq!(core.name, preset.name);
+            assert_eq!(AngleCore::parse("again", &core.to_toml()).unwrap(), core);
+            assert!(core.unit.budget().phase_codes() < 1.0, "{}", preset.name);
         }
     }
 }

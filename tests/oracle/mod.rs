@@ -42,6 +42,23 @@ impl Oracle {
 
     /// The phase as a fraction of a turn times 2^`bits`, in [0, 2^bits). The sums must not both be 0.
     pub fn phase_codes(&mut self, scheme: &str, in_phase: i64, quadrature: i64, bits: u32) -> f64 {
+        to_f64(&self.wide_phase(scheme, in_phase, quadrature, bits))
+    }
+
+    /// `code` minus that, subtracted before it becomes an `f64`; not brought into half a turn.
+    pub fn phase_difference(
+        &mut self,
+        scheme: &str,
+        in_phase: i64,
+        quadrature: i64,
+        bits: u32,
+        code: i64,
+    ) -> f64 {
+        let exact = self.wide_phase(scheme, in_phase, quadrature, bits);
+        to_f64(&BigFloat::from_i64(code, BITS).sub(&exact, BITS, MODE))
+    }
+
+    fn wide_phase(&mut self, scheme: &str, in_phase: i64, quadrature: i64, bits: u32) -> BigFloat {
         let (x, y) = self.coordinates(scheme, in_phase, quadrature);
         let quarter = BigFloat::from_f64(0.25, BITS);
         let turns = if in_phase == 0 {
@@ -55,7 +72,7 @@ impl Oracle {
             };
             ratio.add(&BigFloat::from_f64(base, BITS), BITS, MODE)
         };
-        to_f64(&turns.mul(&BigFloat::from_i64(1 << bits, BITS), BITS, MODE))
+        turns.mul(&BigFloat::from_i64(1 << bits, BITS), BITS, MODE)
     }
 
     /// The vector's length.

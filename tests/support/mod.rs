@@ -6,11 +6,15 @@
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
-use vuris::spec::{Cordic, Modulation, Output, Pipeline, SCHEMES, Sensor, Specification};
+use vuris::spec::{
+    Cordic, Modulation, Output, Pipeline, Rounding, SCHEMES, Sensor, Specification, Throughput,
+};
 use vuris::units::unambiguous_range_m;
 
 /// `preset` with a sensor of 12 x 9 pixels, and then as `change` says.
@@ -21,6 +25,30 @@ pub fn small(preset: &str, change: impl FnOnce(&mut Specification)) -> Pipeline 
         change(specification);
     };
     Pipeline::named(preset).unwrap().adapted("small", small).unwrap()
+}
+
+/// A command of the program `name`, which `scripts/hdl-tools.sh` installs with the set `set`, in `folder`. Nothing of a make or a
+/// user's settings reaches it.
+pub fn hdl_tool(name: &str, set: &str, folder: &Path) -> Command {
+    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join(".tools/hdl/bin").join(name);
+    assert!(
+        program.is_file(),
+        "{} is not here: bash scripts/hdl-tools.sh {set}, or `make setup`",
+        program.display()
+    );
+    let mut command = Command::new(program);
+    command.current_dir(folder).env("HOME", folder).stdin(Stdio::null());
+    for name in ["VERILATOR_ROOT", "MAKEFLAGS", "MFLAGS", "XDG_CONFIG_HOME", "XDG_DATA_HOME"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// Runs `command`: whether it succeeded, and all that it said.
+pub fn said(command: &mut Command) -> (bool, String) {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    (output.status.success(), text.into_owned())
 }
 
 /// Does `work` for every item, two at a time; the results in the items' order.
@@ -75,28 +103,50 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
         (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize).prop_map(|(scheme, decade, frames_per_step)| {
             Modulation { scheme: &SCHEMES[scheme], frequency_hz: 10_f64.powf(decade), frames_per_step }
         });
-    let cordic = (4..=30_u32, 0..=8_u32, 1..=8_u32);
+    // Every fourth one iteration a clock, the others a vector every few clocks.
+    let throughput = (0..4_u32, 1..=40_u32).prop_map(|(kind, clocks)| match kind {
+        0 => Throughput::OneIterationAClock,
+        1 => Throughput::CyclesPerPixel(1),
+        _ => Throughput::CyclesPerPixel(clocks),
+    });
+    let cordic = (4..=30_u32, 0..=8_u32, 1..=8_u32, throughput, 1..=5_u32, 0..5_u32, any::<bool>()).prop_map(
+        |(iterations, vector_guard_bits, angle_guard_bits, throughput, pipeline_every, weak, truncate)| {
+            Cordic {
+                throughput,
+                pipeline_every,
+                normalise: weak > 0,
+                rounding: if truncate { Rounding::Truncate } else { Rounding::Nearest },
+                ..Cordic::new(iterations, vector_guard_bits, angle_guard_bits)
+            }
+        },
+    );
     // Bits of the distance, and the least amplitude as a part of the full scale (or none).
-    let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64);
+    let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64, 0..5_u32);
     (sensor, modulation, cordic, output)
-        .prop_map(|(sensor, modulation, (iterations, vector_guard_bits, angle_guard_bits), output)| {
-            let (phase_bits, amplitude_fraction_bits, offset_fraction_bits, distance_bits, weakest) = output;
+        .prop_map(|(sensor, modulation, cordic, output)| {
+            let (
+                phase_bits,
+                amplitude_fraction_bits,
+                offset_fraction_bits,
+                distance_bits,
+                weakest,
+                phase_only,
+            ) = output;
+            let amplitude = phase_only > 0;
+            let most_iterations = phase_bits + cordic.vector_guard_bits;
             let range_m = unambiguous_range_m(modulation.frequency_hz);
             let full_scale_dn = f64::from(sensor.adc_bits).exp2();
             Specification {
                 name: "any".to_owned(),
                 sensor,
-                cordic: Cordic {
-                    iterations: iterations.min(phase_bits + vector_guard_bits),
-                    vector_guard_bits,
-                    angle_guard_bits,
-                },
+                cordic: Cordic { iterations: cordic.iterations.min(most_iterations), ..cordic },
                 output: Output {
                     phase_bits,
+                    amplitude,
                     amplitude_fraction_bits,
                     offset_fraction_bits,
                     distance_unit_m: range_m / distance_bits.exp2(),
-                    minimum_amplitude_dn: weakest.max(0.0) * full_scale_dn,
+                    minimum_amplitude_dn: if amplitude { weakest.max(0.0) * full_scale_dn } else { 0.0 },
                 },
                 modulation,
             }
