@@ -27,7 +27,7 @@ lint: setup ## the generated Verilog in Verilator, Icarus, Yosys' check and veri
 	cargo test --release --locked --test lint
 	cargo test --release --locked --test synthesis loose_wire
 
-# A core of each preset with a small sensor, three seeds, both simulators.
+# A core of each preset with a small sensor, several seeds, both simulators.
 cocotb: setup build ## the core against numpy, as an outside user would test it
 	@bash scripts/hdl-tools.sh cocotb
 	@bash tb/cocotb/all.sh $(VURIS)

@@ -25,8 +25,8 @@
 //! | [`model`] | the hardware in integers, one file a module |
 //! | [`hdl`] | Verilog, benches and golden vectors from templates |
 //! | [`cosim`] | building and running the simulators, comparing stage by stage |
-//! | [`synthesis`] | area and clock frequency by real synthesis, and the gate on them |
 //! | [`package`] | what surrounds the Verilog: FuseSoC package, lists, constraints, numbers for programs, diagrams, guide |
+//! | [`synthesis`] | area and clock frequency by real synthesis, and the gate on them |
 //! | [`recording`] | the recording format, read and written |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
 //! | [`physics`] | the forward simulator of raw frames |

@@ -64,7 +64,8 @@ pub fn reference_images(pipeline: &Pipeline, raw: &RawSets) -> Result<ReferenceI
         let frames: Vec<&[u32]> = (0..frames_per_set).map(|frame| raw.frame(set, frame)).collect();
         for pixel in 0..pixels {
             let [mut in_phase, mut quadrature, mut offset] = [0.0; 3];
-            for (step, held) in frames.chunks(frames_per_step).enumerate() {
+            for (place, held) in frames.chunks(frames_per_step).enumerate() {
+                let step = pipeline.modulation.step_at(place);
                 let sum: f64 = held.iter().map(|frame| f64::from(frame[pixel])).sum();
                 let mean = sum / frames_per_step as f64;
                 in_phase += scheme.in_phase[step] as f64 * mean;

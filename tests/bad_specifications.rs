@@ -147,7 +147,7 @@ fn assert_none(faults: Vec<String>) {
 // ---------------------------------------------------------------- specifications
 
 const SPEC: &str = "pipeline.toml";
-const TOP: &str = "one of format, name, sensor, modulation, cordic, output";
+const TOP: &str = "one of format, name, sensor, modulation, cordic, output, registers";
 const NAME: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first";
 const PRESETS: &str = "one of the presets vuris, vuris-four-frame";
 
@@ -345,6 +345,80 @@ const SPECIFICATIONS: &[(&str, Change, &[&str])] = &[
         replace("per_step = 2", "per_step = 257"),
         &["modulation.frames_per_step = 257", "1 to 256"],
     ),
+    (
+        "order without a step",
+        replace("per_step = 2", "per_step = 2\norder = [1, 0, 2, 3]"),
+        &[
+            "modulation.order = [1, 0, 2, 3]",
+            "every step of wdft once: the numbers 0 to 4",
+            "leave the line out",
+        ],
+    ),
+    (
+        "ascending order of another scheme",
+        replace("per_step = 2", "per_step = 2\norder = [0, 1, 2, 3]"),
+        &["modulation.order = [0, 1, 2, 3]", "every step of wdft once: the numbers 0 to 4"],
+    ),
+    (
+        "order with a step twice",
+        replace("per_step = 2", "per_step = 2\norder = [0, 1, 2, 3, 3]"),
+        &["modulation.order = [0, 1, 2, 3, 3]", "the numbers 0 to 4"],
+    ),
+    (
+        "order from 1",
+        replace("per_step = 2", "per_step = 2\norder = [5, 4, 3, 2, 1]"),
+        &["modulation.order = [5, 4, 3, 2, 1]", "the numbers 0 to 4"],
+    ),
+    (
+        "order of nothing",
+        replace("per_step = 2", "per_step = 2\norder = []"),
+        &["modulation.order = []", "whole numbers from 0 on"],
+    ),
+    (
+        "order of a negative",
+        replace("per_step = 2", "per_step = 2\norder = [0, 1, 2, 3, -4]"),
+        &["modulation.order = [0, 1, 2, 3, -4]", "whole numbers from 0 on"],
+    ),
+    (
+        "order of a fraction",
+        replace("per_step = 2", "per_step = 2\norder = [0, 1, 2, 3, 4.5]"),
+        &["modulation.order = [", "whole numbers from 0 on"],
+    ),
+    (
+        "order a word",
+        replace("per_step = 2", "per_step = 2\norder = \"ascending\""),
+        &["modulation.order = \"ascending\"", "whole numbers from 0 on"],
+    ),
+    (
+        "phase step in 1 bit",
+        replace("per_step = 2", "per_step = 2\nphase_step_bits = 1"),
+        &["modulation.phase_step_bits = 1", "2 to 24"],
+    ),
+    (
+        "phase step in 25 bits",
+        replace("per_step = 2", "per_step = 2\nphase_step_bits = 25"),
+        &["modulation.phase_step_bits = 25", "2 to 24"],
+    ),
+    (
+        "field of the registers unknown",
+        replace("[output]", "[registers]\naxi = true\n[output]"),
+        &["registers.axi is not a field", "one of axi4_lite, frequency_factor"],
+    ),
+    (
+        "AXI4-Lite a number",
+        replace("[output]", "[registers]\naxi4_lite = 1\n[output]"),
+        &["registers.axi4_lite = 1", "true or false"],
+    ),
+    (
+        "frequency factor negative",
+        replace("[output]", "[registers]\nfrequency_factor = -1\n[output]"),
+        &["registers.frequency_factor = -1", "0 to 4294967295"],
+    ),
+    (
+        "frequency factor of 33 bits",
+        replace("[output]", "[registers]\nfrequency_factor = 4294967296\n[output]"),
+        &["registers.frequency_factor = 4294967296", "0 to 4294967295"],
+    ),
     ("iterations missing", replace("iterations = 20", ""), &["cordic.iterations is missing", "4 to 30"]),
     ("iterations below", replace("iterations = 20", "iterations = 3"), &["cordic.iterations = 3", "4 to 30"]),
     (
@@ -511,6 +585,10 @@ fn the_limits_themselves_are_allowed() {
             ("offset_fraction_bits = 4", "offset_fraction_bits = 8"),
             ("minimum_amplitude_dn = 0.0", "minimum_amplitude_dn = 4095"),
         ],
+        &[("per_step = 2", "per_step = 2\norder = [4, 3, 2, 1, 0]\nphase_step_bits = 2")],
+        &[("per_step = 2", "per_step = 2\norder = [0, 1, 2, 3, 4]\nphase_step_bits = 24")],
+        &[("[output]", "[registers]\n[output]")],
+        &[("[output]", "[registers]\naxi4_lite = false\nfrequency_factor = 4294967295\n[output]")],
         &[("30000000.0", "1e10"), ("1e-5", "1e-7")],
         &[("30000000.0", "1e4"), ("1e-5", "1.0")],
         &[("\"bench\"", "\"a\"")],

@@ -88,6 +88,7 @@ fn help_names_every_command_and_every_option() {
                 "--cycles-per-pixel <LIST>",
                 "--normaliser <NORMALISER>",
                 "--rounding <ROUNDING>",
+                "--frequency-hz <HZ>",
                 "--samples <N>",
                 "--exhaustive",
                 "--out <DIR>",

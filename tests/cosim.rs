@@ -144,7 +144,9 @@ fn sets_of_256_frames_a_step_agree_in_both_simulators() {
         let golden = Golden::new(&pipeline, &Scenario { segments });
         for simulator in Simulator::ALL {
             let outcomes = agree(preset.name, &pipeline, &golden, simulator, &[Traffic::default()]);
-            assert_eq!(outcomes[0].values as usize, 9 * 8 * VALUES_A_PIXEL + VALUES_A_REST);
+            // Each frame that begins calls for the next.
+            let announcements = 9 * 256 * pipeline.modulation.scheme.steps();
+            assert_eq!(outcomes[0].values as usize, 9 * 8 * VALUES_A_PIXEL + VALUES_A_REST + announcements);
         }
     }
 }
@@ -263,7 +265,13 @@ fn every_broken_set_is_discarded_and_counted_and_the_next_one_comes_out() {
         assert_eq!(golden.counters, (37, 18));
         for simulator in Simulator::ALL {
             let outcomes = agree(preset.name, &pipeline, &golden, simulator, &[Traffic::default()]);
-            assert_eq!(outcomes[0].values as usize, 37 * 108 * VALUES_A_PIXEL + 19 * VALUES_A_REST);
+            // Each frame that begins calls for the next: all of the 36 good sets and of 3 broken ones (last frame short, long, and one too
+            // many), all but one of that without its last, 2 in the 4 whose fault is within the second, 1 in 6, none in 4. And each
+            // of the 18 that are discarded calls for a new set, but for the 2 that a start of set breaks off.
+            let frames = pipeline.derived().frames_per_set;
+            let begun = 36 * frames + 3 * frames + (frames - 1) + 4 * 2 + 6;
+            let values = 37 * 108 * VALUES_A_PIXEL + 19 * VALUES_A_REST + begun + (18 - 2);
+            assert_eq!(outcomes[0].values as usize, values);
         }
     }
 }
@@ -291,13 +299,14 @@ fn a_reset_really_interrupts_the_drain_that_it_means_to_interrupt() {
     // Since the first sums came out, half a frame of the next set has been taken, and the reset comes with its last: sums of
     // 53 pixels, vectors a clock, polar forms 31, distances 33 and outputs 34 clocks behind.
     let half_way = 53 * 4 + 52 * 2 + 22 * 4 + 20 + 19 * 8;
-    for (first, interrupted) in [(2, at_the_start), (4, half_way)] {
+    // Each of 5 frames before the reset and after it calls for the next; so does, half way, the first of another set.
+    for (first, interrupted) in [(2, at_the_start + 10), (4, half_way + 11)] {
         let pair = segments[first..first + 2].to_vec();
         let name = pair[0].name.clone();
         assert!(name.starts_with("reset while a set drains"), "{name}");
         let golden = Golden::new(&pipeline, &Scenario { segments: pair });
         // Both sets are due: the one before the reset, and the good one after it.
-        assert_eq!(golden.epochs, [108, 216]);
+        assert_eq!(golden.epochs.iter().map(|epoch| epoch.records).collect::<Vec<_>>(), [108, 216]);
         for simulator in Simulator::ALL {
             let outcome = &agree(&name, &pipeline, &golden, simulator, &[STRAIGHT])[0];
             assert_eq!(outcome.values as usize, interrupted + 108 * VALUES_A_PIXEL + VALUES_A_REST);

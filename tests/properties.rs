@@ -39,6 +39,7 @@ fn always(scheme: Option<&'static str>, property: impl Fn(&Pipeline, Codes) -> T
     let of_scheme = move |mut specification: Specification| {
         if let Some(scheme) = scheme {
             specification.modulation.scheme = vuris::spec::scheme(scheme).unwrap();
+            specification.modulation.order = None;
         }
         Pipeline::new("any", specification).ok()
     };

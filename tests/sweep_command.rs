@@ -6,7 +6,8 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
-use vuris::spec::{AngleSpecification, AngleUnit, Cordic, Pipeline};
+use vuris::spec::{AngleUnit, Architecture, Design, Pipeline};
+use vuris::sweep::AreaModel;
 
 const GRID: &[&str] = &[
     "sweep",
@@ -212,19 +213,7 @@ fn a_recommendation_is_a_specification_that_holds_what_was_asked() {
     fs::write(home.path().join("small.toml"), &toml).unwrap();
     run(home.path(), &["generate", "--spec", "small.toml", "--out", "hardware"], &[]);
     let pipeline = Pipeline::parse("small.toml", &toml).unwrap();
-    let derived = pipeline.derived();
-    let unit = |guard_bits| {
-        let specification = AngleSpecification {
-            x_bits: derived.in_phase.bits,
-            y_bits: derived.quadrature.bits,
-            metric: 1,
-            phase_bits: field(&toml, "phase_bits"),
-            length_bits: 0,
-            cordic: Cordic::new(field(&toml, "iterations"), field(&toml, "vector_guard_bits"), guard_bits),
-        };
-        AngleUnit::new("small.toml", specification).unwrap()
-    };
-    assert!(unit(field(&toml, "angle_guard_bits")).budget().phase_rad() <= 1e-3);
+    assert!(pipeline.derived().angle.budget().phase_rad() <= 1e-3);
     assert!(toml.contains("proved for every vector"), "{toml}");
 
     let relaxed = run(home.path(), &arguments, &["--error", "1mrad"]);
@@ -241,6 +230,45 @@ fn a_recommendation_is_a_specification_that_holds_what_was_asked() {
         field(&toml, "phase_bits")
     };
     assert!(noise("20") < noise("2000"));
+}
+
+/// An angle unit by itself is recommended like a camera's; it has no noise of its own.
+#[test]
+fn an_angle_unit_by_itself_can_be_recommended() {
+    let home = home();
+    let arguments = ["sweep", "--recommend", "--samples", "2000", "--spec", "angle-16"];
+    let toml = run(home.path(), &arguments, &["--error", "2mm", "--frequency-hz", "100e6", "--proved"]);
+    fs::write(home.path().join("unit.toml"), &toml).unwrap();
+    run(home.path(), &["generate", "--spec", "unit.toml", "--out", "hardware"], &[]);
+    let unit: AngleUnit = match Design::named(home.path().join("unit.toml").to_str().unwrap()).unwrap() {
+        Design::Angle(core) => core.unit,
+        Design::Pipeline(_) => panic!("a camera"),
+    };
+    // c / (2 f) = 1.499 m a turn.
+    let limit_rad = 2e-3 / (299_792_458.0 / 200e6) * std::f64::consts::TAU;
+    assert!(unit.budget().phase_rad() <= limit_rad && unit.budget().phase_rad() > limit_rad / 4.0);
+    let problem = refusal(home.path(), &arguments, &["--add-noise", "1%"]);
+    assert!(problem.contains("angle unit by itself"), "{problem}");
+}
+
+/// The area model's table is what its command prints for the synthesised points.
+#[test]
+fn the_area_models_table_is_the_fit_of_its_points() {
+    let home = home();
+    let points = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/area-points.csv");
+    let fitted = run(home.path(), &["sweep", "--fit-area", points], &[]);
+    let printed: Vec<f64> = fitted
+        .lines()
+        .filter_map(|line| line.strip_suffix(" LUTs a bit"))
+        .map(|line| line.split_whitespace().last().unwrap().parse().unwrap())
+        .collect();
+    let architectures =
+        [Architecture::Unrolled, Architecture::Folded { stages: 4, rounds: 4 }, Architecture::Iterative];
+    let table: Vec<f64> = architectures.iter().flat_map(|&a| AreaModel::of(a).coefficients).collect();
+    assert_eq!(printed.len(), table.len(), "{fitted}");
+    for (printed, table) in printed.iter().zip(&table) {
+        assert!((printed - table).abs() <= 1.1e-4, "{table}, and the fit is {printed}:\n{fitted}");
+    }
 }
 
 /// A file of synthesised areas made by known coefficients gives these back.

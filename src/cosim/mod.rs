@@ -1,5 +1,6 @@
 //! Building and running the simulators, and comparing stage by stage.
 
+mod accesses;
 mod angle;
 mod finding;
 mod lint;
@@ -7,6 +8,7 @@ mod run;
 mod scenario;
 mod tools;
 
+pub use accesses::register_accesses;
 pub use angle::simulate_angle;
 pub use finding::Finding;
 pub use lint::lint;

@@ -1,5 +1,6 @@
 //! What the core is driven with: corners, random frames, broken streams, resets.
 
+use super::accesses::{read_all, register_accesses};
 use crate::frames::RawSets;
 use crate::hdl::{Scenario, Segment};
 use crate::model::{Beat, StreamEvent, beats_of_set};
@@ -266,7 +267,12 @@ pub fn silences(pipeline: &Pipeline, seed: u64) -> Vec<Segment> {
 pub fn aborted_then_good(pipeline: &Pipeline, good: Segment) -> Scenario {
     let mut set = Broken::new(pipeline, 1);
     (FAULTS[0].apply)(&mut set);
-    Scenario { segments: vec![Segment { name: FAULTS[0].name.to_owned(), events: set.events() }, good] }
+    let mut segments = vec![Segment { name: FAULTS[0].name.to_owned(), events: set.events() }, good];
+    if pipeline.registers.axi4_lite {
+        let events = [vec![StreamEvent::Rest], read_all()].concat();
+        segments.push(Segment { name: "registers in the end".to_owned(), events });
+    }
+    Scenario { segments }
 }
 
 /// Resets while a set accumulates, while one drains, while one drains and the next accumulates, and while nothing
@@ -303,6 +309,7 @@ pub fn standard(pipeline: &Pipeline, seed: u64) -> Scenario {
         Segment::of_sets("random frames", &random_sets(pipeline, seed, 2)),
     ];
     segments.extend(resets(pipeline, seed + 20_000));
+    segments.extend(register_accesses(pipeline, seed + 40_000));
     segments.extend(faulty_stream(pipeline, seed + 10_000));
     segments.extend(silences(pipeline, seed + 30_000));
     Scenario { segments }

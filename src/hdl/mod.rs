@@ -7,12 +7,14 @@ mod bench;
 mod control;
 mod golden;
 mod polar;
+mod registers;
+mod sequencer;
 mod text;
 mod top;
 
 pub use angle::{AngleSource, angle_core_artifacts, angle_stimulus};
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
-pub use golden::{Golden, Rest, Scenario, Segment, StimulusWord};
+pub use golden::{Epoch, Golden, GoldenAccess, Rest, Scenario, Segment, StimulusWord};
 pub use top::{ResultField, result_bits, result_fields};
 
 use crate::artifact::Artifact;
@@ -64,6 +66,12 @@ const MODULES: &[Module] = &[
         render: control::framing,
     },
     Module {
+        noun: "sequencer",
+        purpose: "The order of the phase steps, and which of them the next raw frame must have.",
+        belongs: always,
+        render: sequencer::sequencer,
+    },
+    Module {
         noun: "sum_memory",
         purpose: "The sums of all pixels.",
         belongs: always,
@@ -87,6 +95,12 @@ const MODULES: &[Module] = &[
         purpose: "The distance of a phase.",
         belongs: always,
         render: polar::distance,
+    },
+    Module {
+        noun: "registers",
+        purpose: "Registers for a processor, over AXI4-Lite.",
+        belongs: |pipeline| pipeline.registers.axi4_lite,
+        render: registers::registers,
     },
 ];
 
@@ -166,6 +180,7 @@ fn specification_artifact(source: &Source) -> Artifact {
 pub fn all_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let mut artifacts = rtl_artifacts(source);
     artifacts.push(specification_artifact(source));
+    artifacts.extend(registers::map_artifacts(source));
     artifacts.extend(bench_artifacts(source, golden));
     artifacts.extend(vector_artifacts(source, golden));
     artifacts

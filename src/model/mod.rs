@@ -10,6 +10,8 @@ mod distance;
 mod framing;
 mod offset;
 mod pipeline;
+mod registers;
+mod sequencer;
 mod stream;
 
 pub use accumulator::{Accumulator, Sums};
@@ -19,4 +21,6 @@ pub use distance::distance;
 pub use framing::{Framing, FramingEvent, PixelSlot};
 pub use offset::offset;
 pub use pipeline::{PipelineModel, PixelRecord, pixel};
+pub use registers::{Access, Answer, ReadData, Registers};
+pub use sequencer::{NextFrame, next_frame};
 pub use stream::{Beat, StreamEvent, beats_of_set};

@@ -1,7 +1,7 @@
 //! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
 
 use crate::hdl::{result_bits, result_fields};
-use crate::spec::{Architecture, Pipeline, StageWord, Word, exact};
+use crate::spec::{Architecture, Pipeline, REGISTER_BYTES, REGISTERS, StageWord, Word, exact};
 use crate::units::unambiguous_range_m;
 use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
@@ -39,7 +39,14 @@ fn word(word: Word) -> String {
 
 /// The tables of `pipeline`, in the order in which the data meets what they are about.
 pub fn sections(pipeline: &Pipeline) -> Vec<Section> {
-    vec![input(pipeline), accumulator(pipeline), angle(pipeline), output(pipeline), errors(pipeline)]
+    vec![
+        input(pipeline),
+        accumulator(pipeline),
+        angle(pipeline),
+        output(pipeline),
+        registers(pipeline),
+        errors(pipeline),
+    ]
 }
 
 /// The tables of `pipeline` as text.
@@ -75,6 +82,19 @@ fn input(pipeline: &Pipeline) -> Section {
             scheme.step_turns.1,
             pipeline.modulation.frames_per_step
         ),
+    );
+    let modulation = &pipeline.modulation;
+    let order = modulation.steps_in_order();
+    section.row(
+        "order of the steps",
+        format!("{order:?}"),
+        "place by place; the sequencer tells the modulation hardware, and each frame gets its step's weights",
+    );
+    let phases: Vec<i64> = (0..scheme.steps()).map(|step| modulation.step_phase_code(step)).collect();
+    section.row(
+        "phase of each step",
+        format!("{phases:?}"),
+        format!("turns / 2^{}, rounded to nearest, whole turns left out", modulation.phase_step_bits),
     );
     section.row("saturated from", format!("{} DN", sensor.saturation_dn), "saturation_dn, or full scale");
     section.row(
@@ -237,6 +257,25 @@ fn output(pipeline: &Pipeline) -> Section {
         format!("{} codes", derived.minimum_amplitude),
         "a weaker pixel is not usable; nor is one without a vector",
     );
+    section
+}
+
+fn registers(pipeline: &Pipeline) -> Section {
+    let mut section = Section::new("registers");
+    section.row(
+        "specification hash",
+        format!("0x{:016x}", pipeline.hash()),
+        "first 64 bits of the SHA-256 of what `vuris explain --toml` prints of this specification",
+    );
+    if !pipeline.registers.axi4_lite {
+        section.row("AXI4-Lite port", "none", "registers.axi4_lite = false");
+        return section;
+    }
+    for (number, register) in REGISTERS.iter().enumerate() {
+        let address = number as u32 * REGISTER_BYTES;
+        let access = if register.writable() { "read and write" } else { "read" };
+        section.row(register.name, format!("0x{address:02x}, {access}"), register.meaning);
+    }
     section
 }
 

@@ -1,7 +1,11 @@
 //! The specification's TOML file: reading, checking and writing.
 
 use super::angle::{read_cordic, write_cordic};
-use super::{Modulation, Output, Sensor, Specification, Word, refused, scheme, scheme_names};
+use super::sequence::DEFAULT_PHASE_STEP_BITS;
+use super::{
+    Modulation, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order, refused,
+    scheme, scheme_names, sequence,
+};
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
 use std::path::Path;
@@ -34,7 +38,7 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     let table = fields::parse(source, text)?;
     let top = Fields::top(source, &table);
-    top.only(&["format", "name", "sensor", "modulation", "cordic", "output"])?;
+    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers"])?;
     let expected_format = format!("\"{FORMAT}\"");
     if top.text("format", &expected_format)? != FORMAT {
         return Err(top.refuse("format", &expected_format));
@@ -54,13 +58,17 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let modulation = top.section("modulation")?;
-    modulation.only(&["scheme", "frequency_hz", "frames_per_step"])?;
+    modulation.only(&["scheme", "frequency_hz", "frames_per_step", "order", "phase_step_bits"])?;
     let one_of = format!("one of {}", scheme_names());
+    let scheme =
+        scheme(modulation.text("scheme", &one_of)?).ok_or_else(|| modulation.refuse("scheme", &one_of))?;
     let modulation = Modulation {
-        scheme: scheme(modulation.text("scheme", &one_of)?)
-            .ok_or_else(|| modulation.refuse("scheme", &one_of))?,
+        scheme,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
+        order: order(&modulation, scheme)?,
+        phase_step_bits: modulation.integer_or("phase_step_bits", 2..=24, DEFAULT_PHASE_STEP_BITS.into())?
+            as u32,
     };
 
     let cordic = top.section("cordic")?;
@@ -83,7 +91,33 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
         minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
     };
-    Ok(Specification { name, sensor, modulation, cordic, output })
+    Ok(Specification { name, sensor, modulation, cordic, output, registers: registers(&top)? })
+}
+
+/// The order of the phase steps, where there is one; [`check`] sees whether it is the scheme's.
+fn order(modulation: &Fields, scheme: &Scheme) -> Result<Option<Vec<usize>>> {
+    if !modulation.has("order") {
+        return Ok(None);
+    }
+    let expected = "a list of the scheme's phase steps, whole numbers from 0 on, such as [0, 3, 1, 4, 2]";
+    let numbers = modulation.numbers("order", expected)?;
+    let whole = numbers.iter().all(|number| number.fract() == 0.0 && (0.0..65_536.0).contains(number));
+    if !whole || numbers.is_empty() {
+        return Err(modulation.refuse("order", expected));
+    }
+    Ok(normalised_order(scheme, numbers.into_iter().map(|number| number as usize).collect()))
+}
+
+/// The register block: none where the section is absent.
+fn registers(top: &Fields) -> Result<RegisterBlock> {
+    let Some(registers) = top.optional_section("registers")? else {
+        return Ok(RegisterBlock::default());
+    };
+    registers.only(&["axi4_lite", "frequency_factor"])?;
+    Ok(RegisterBlock {
+        axi4_lite: registers.flag_or("axi4_lite", true)?,
+        frequency_factor: registers.integer_or("frequency_factor", 0..=u32::MAX.into(), 0)? as u32,
+    })
 }
 
 pub(super) const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
@@ -134,12 +168,12 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
         return Err(refused(source, "modulation.frames_per_step", specification.modulation.frames_per_step)
             .expected("1 to 256"));
     }
-    Ok(())
+    sequence::check(source, specification)
 }
 
 /// The text of a file that reads as `specification`.
 pub(super) fn write(specification: &Specification) -> String {
-    let Specification { name, sensor, modulation, cordic, output } = specification;
+    let Specification { name, sensor, modulation, cordic, output, registers } = specification;
     format!(
         "format = \"{FORMAT}\"\n\
          name = \"{name}\"\n\
@@ -147,9 +181,12 @@ pub(super) fn write(specification: &Specification) -> String {
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
          scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
+         order = {:?}\nphase_step_bits = {}\n\
          \n{}\n[output]\n\
          phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
-         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n",
+         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
+         \n[registers]\n\
+         axi4_lite = {}\nfrequency_factor = {}\n",
         sensor.width,
         sensor.height,
         sensor.adc_bits,
@@ -158,6 +195,8 @@ pub(super) fn write(specification: &Specification) -> String {
         modulation.scheme.name,
         modulation.frequency_hz,
         modulation.frames_per_step,
+        modulation.steps_in_order(),
+        modulation.phase_step_bits,
         write_cordic(cordic),
         output.phase_bits,
         output.amplitude,
@@ -165,5 +204,7 @@ pub(super) fn write(specification: &Specification) -> String {
         output.offset_fraction_bits,
         output.distance_unit_m,
         output.minimum_amplitude_dn,
+        registers.axi4_lite,
+        registers.frequency_factor,
     )
 }

@@ -10,7 +10,9 @@ mod design;
 pub mod exact;
 mod file;
 mod presets;
+mod registers;
 mod scheme;
+mod sequence;
 mod word;
 
 pub use angle::{
@@ -22,11 +24,17 @@ pub use derived::Derived;
 pub use design::Design;
 pub use exact::ScaledConstant;
 pub use presets::{ANGLE_PRESETS, PRESETS, Preset};
+pub use registers::{
+    ADDRESS_BITS, Content, Counter, IDENTIFICATION, REGISTER_BYTES, REGISTERS, Register, RegisterBlock,
+    register_at,
+};
 pub use scheme::{Irrational, SCHEMES, Scheme, scheme, scheme_names};
+pub use sequence::normalised_order;
 pub use word::Word;
 
 use crate::frames::Geometry;
 use crate::problem::{Problem, Result};
+use sha2::{Digest, Sha256};
 
 /// The sensor and its raw stream.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +60,10 @@ pub struct Modulation {
     pub frequency_hz: f64,
     /// Raw frames accumulated for one phase step, 1 to 256.
     pub frames_per_step: usize,
+    /// The phase steps in the order in which a set has them, each once; `None` where it is ascending.
+    pub order: Option<Vec<usize>>,
+    /// Bits of a phase step as a fraction of a turn, for the modulation hardware, 2 to 24.
+    pub phase_step_bits: u32,
 }
 
 /// The output words.
@@ -84,6 +96,8 @@ pub struct Specification {
     pub cordic: Cordic,
     /// The output words.
     pub output: Output,
+    /// The register block.
+    pub registers: RegisterBlock,
 }
 
 /// A specification that works, and all that follows from it.
@@ -153,6 +167,13 @@ impl Pipeline {
     /// The specification as the text of a TOML file, from which it can be read again.
     pub fn to_toml(&self) -> String {
         file::write(&self.specification)
+    }
+
+    /// The specification's hash: the first 64 bits of the SHA-256 of [`Pipeline::to_toml`]'s text, which is what
+    /// `vuris explain --spec … --toml` prints, highest bit first.
+    pub fn hash(&self) -> u64 {
+        let digest = Sha256::digest(self.to_toml().as_bytes());
+        digest.iter().take(8).fold(0, |hash, &byte| hash << 8 | u64::from(byte))
     }
 
     /// The sensor's pixels.

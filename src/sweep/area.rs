@@ -32,23 +32,27 @@ pub struct Area {
 }
 
 /// Bits of hardware that are counted: the model is linear in them.
-const FEATURES: [&str; 5] = ["fold", "shift", "vector", "angle", "once"];
+const FEATURES: [&str; 5] = ["fold", "shift", "vector", "tripled", "angle"];
 
 /// What a counted bit costs in one architecture: LUT4 + 2 · CCU2C.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AreaModel {
-    /// One coefficient for each of: bits folded, bits shifted by multiplexers, adder bits of x and y, adder bits of the angle, and
-    /// 1 (control).
+    /// One coefficient for each of: bits folded, bits shifted by multiplexers, adder bits of x and y, bits of tripled y, and bits of
+    /// the angle.
     pub coefficients: [f64; 5],
 }
 
 impl AreaModel {
-    /// The model of `architecture`, with the coefficients of this table, which `vuris sweep --fit-area` prints.
+    /// The model of `architecture`, with the coefficients that `vuris sweep --fit-area tests/data/area-points.csv` prints.
+    ///
+    /// The points are 57 units without length, synthesised by Yosys 0.70 (`synth_ecp5`): words of 8 to 24 bits, phases of 8 to 20. The
+    /// largest deviation is 1.7 % unrolled, 3.1 % folded (four clocks a vector), 10.8 % for one iteration a clock. What an
+    /// area of the model says of units with a length is an extrapolation.
     pub const fn of(architecture: Architecture) -> Self {
         let coefficients = match architecture {
-            Architecture::Unrolled => [2.0, 0.5, 1.5, 1.3, 20.0],
-            Architecture::Folded { .. } => [2.0, 0.5, 1.7, 1.3, 40.0],
-            Architecture::Iterative => [2.0, 0.5, 2.0, 2.0, 60.0],
+            Architecture::Unrolled => [2.6425, 0.8235, 1.4671, 0.9242, 2.9714],
+            Architecture::Folded { .. } => [2.0157, 0.9944, 1.1963, 1.0956, 1.4307],
+            Architecture::Iterative => [1.4099, -10.2515, 4.1805, 4.1514, 4.7316],
         };
         Self { coefficients }
     }
@@ -56,34 +60,35 @@ impl AreaModel {
     /// The counted bits of `unit`, from its derived widths.
     ///
     /// - fold: both words;
-    /// - shift: two magnitudes a stage of the normaliser (one stage where it shifts a place a clock), and where a stage serves
-    ///   several iterations, the choice of the places by which its y is shifted for x;
-    /// - vector: y's adder of every stage that is built, and x's as long as x follows; with metric 3 another to triple y;
-    /// - angle: the adders of the angle's groups, or of the one angle;
-    /// - once: 1.
+    /// - shift: two magnitudes a stage of the normaliser, and where a stage of a ring serves several iterations, the choice of the
+    ///   places by which its y is shifted for x. The iterative unit's normaliser shifts a place a clock while it loads, which
+    ///   costs next to nothing: here 1, for what depends on no word;
+    /// - vector: y's adder of every stage that is built, and x's as long as x follows;
+    /// - tripled: with metric 3, another adder of y's bits wherever x follows;
+    /// - angle: the sums of the angle's groups, or the one angle.
     fn features(unit: &AngleUnit) -> [f64; 5] {
         let levels = unit.shifts.len() as u32;
+        let follows = |i: u32| i <= unit.stages.x_iterations;
         let bits_at = |i: u32| {
             let (x, y) = (unit.stages.x[i as usize].bits, unit.stages.y[i as usize].bits);
-            let tripled = if unit.metric == 3 { y } else { 0 };
-            y + if i <= unit.stages.x_iterations { x + tripled } else { 0 }
+            y + if follows(i) { x } else { 0 }
         };
+        let tripled_at =
+            |i: u32| if unit.metric == 3 && follows(i) { unit.stages.y[i as usize].bits } else { 0 };
         let y_bits = unit.stages.y[0].bits;
         let angles = unit.groups.iter().map(|group| group.bits).sum::<u32>();
         let choice = |of: u32| y_bits * (u32::BITS - of.saturating_sub(1).leading_zeros());
         let magnitudes = 2 * unit.magnitude_bits;
-        let (shift, vector, angle) = match unit.architecture {
-            Architecture::Unrolled => (magnitudes * levels, (0..unit.iterations).map(bits_at).sum(), angles),
+        let over = |stages: u32, bits: &dyn Fn(u32) -> u32| (0..stages).map(bits).sum::<u32>();
+        let (shift, built, angle) = match unit.architecture {
+            Architecture::Unrolled => (magnitudes * levels, unit.iterations, angles),
             Architecture::Folded { stages, rounds } => {
-                (magnitudes * levels + stages * choice(rounds), stages * bits_at(0), angles)
+                (magnitudes * levels + stages * choice(rounds), stages, angles)
             }
-            Architecture::Iterative => (
-                magnitudes * levels.min(1) + choice(unit.stages.x_iterations + 1),
-                bits_at(0),
-                unit.angle_bits,
-            ),
+            Architecture::Iterative => (1, 1, unit.angle_bits),
         };
-        [unit.x_bits + unit.y_bits, shift, vector, angle, 1].map(f64::from)
+        let fold = unit.x_bits + unit.y_bits;
+        [fold, shift, over(built, &bits_at), over(built, &tripled_at), angle].map(f64::from)
     }
 
     /// The area of `unit`.
@@ -166,7 +171,9 @@ mod tests {
         let mut varied = Vec::new();
         for (bits, phase_bits) in [(8, 10), (12, 12), (12, 18), (16, 16), (20, 14)] {
             for (iterations, vector_guard_bits, angle_guard_bits) in [(10, 2, 2), (8, 4, 5), (13, 6, 1)] {
+                let metric = if bits == 12 { 3 } else { 1 };
                 let changed = Configuration {
+                    metric,
                     iterations,
                     vector_guard_bits,
                     angle_guard_bits,
@@ -181,7 +188,7 @@ mod tests {
     /// Areas made by known coefficients give these back.
     #[test]
     fn a_fit_finds_the_coefficients_that_made_its_points() {
-        let truth = AreaModel { coefficients: [2.5, 0.75, 1.25, 1.5, 40.0] };
+        let truth = AreaModel { coefficients: [2.5, 0.75, 1.25, 1.5, 3.0] };
         for throughput in THROUGHPUTS {
             let points: Vec<_> =
                 varied(throughput).into_iter().map(|unit| (unit.clone(), truth.area(&unit).luts)).collect();
@@ -212,7 +219,7 @@ mod tests {
             ] {
                 assert!(luts(more) > luts(base), "{more}");
             }
-            assert!(luts(Configuration { normaliser: false, ..base }) < luts(base));
+            assert!(luts(Configuration { normaliser: false, ..base }) <= luts(base));
         }
         let of = |throughput| luts(Configuration { throughput, ..word(16, 16) });
         let [unrolled, folded, iterative] = THROUGHPUTS.map(of);

@@ -13,7 +13,8 @@ use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
 use vuris::spec::{
-    Cordic, Modulation, Output, Pipeline, Rounding, SCHEMES, Sensor, Specification, Throughput,
+    Cordic, Modulation, Output, Pipeline, RegisterBlock, Rounding, SCHEMES, Scheme, Sensor, Specification,
+    Throughput, normalised_order,
 };
 use vuris::units::unambiguous_range_m;
 
@@ -85,6 +86,15 @@ pub fn everything(pipeline: &Pipeline, seed: u64) -> Scenario {
     scenario
 }
 
+/// The steps of `scheme` in an order that `seed` gives; ascending for every fourth.
+pub fn shuffled(scheme: &Scheme, seed: u64) -> Option<Vec<usize>> {
+    let mut order: Vec<usize> = (0..scheme.steps()).collect();
+    if !seed.is_multiple_of(4) {
+        order.sort_by_key(|&step| (seed ^ (step as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    }
+    normalised_order(scheme, order)
+}
+
 /// Specifications of every kind that the program accepts: all its fields, with small sensors and few frames.
 pub fn specifications() -> impl Strategy<Value = Specification> {
     let sensor = (2..=8_usize, 1..=6_usize, 8..=16_u32, 0.0..1.5_f64, 16..=100_u32).prop_map(
@@ -100,9 +110,15 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
         },
     );
     let modulation =
-        (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize).prop_map(|(scheme, decade, frames_per_step)| {
-            Modulation { scheme: &SCHEMES[scheme], frequency_hz: 10_f64.powf(decade), frames_per_step }
+        (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize, any::<u64>(), 2..=24_u32).prop_map(|row| {
+            let (scheme, decade, frames_per_step, order, phase_step_bits) = row;
+            let scheme = &SCHEMES[scheme];
+            let order = shuffled(scheme, order);
+            let frequency_hz = 10_f64.powf(decade);
+            Modulation { scheme, frequency_hz, frames_per_step, order, phase_step_bits }
         });
+    let registers = (any::<bool>(), any::<u32>())
+        .prop_map(|(axi4_lite, frequency_factor)| RegisterBlock { axi4_lite, frequency_factor });
     // Every fourth one iteration a clock, the others a vector every few clocks.
     let throughput = (0..4_u32, 1..=40_u32).prop_map(|(kind, clocks)| match kind {
         0 => Throughput::OneIterationAClock,
@@ -122,8 +138,8 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
     );
     // Bits of the distance, and the least amplitude as a part of the full scale (or none).
     let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64, 0..5_u32);
-    (sensor, modulation, cordic, output)
-        .prop_map(|(sensor, modulation, cordic, output)| {
+    (sensor, modulation, cordic, output, registers)
+        .prop_map(|(sensor, modulation, cordic, output, registers)| {
             let (
                 phase_bits,
                 amplitude_fraction_bits,
@@ -149,6 +165,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
                     minimum_amplitude_dn: if amplitude { weakest.max(0.0) * full_scale_dn } else { 0.0 },
                 },
                 modulation,
+                registers,
             }
         })
         .prop_filter("it is accepted", |specification| Pipeline::new("any", specification.clone()).is_ok())

@@ -9,7 +9,7 @@ use super::print::{counted, say};
 use super::progress;
 use crate::problem::{Problem, Result};
 use crate::report::{front_table, octave_table, sweep_columns, sweep_csv, sweep_parquet, sweep_picture};
-use crate::spec::{AngleUnit, Architecture, Pipeline, Rounding, Throughput};
+use crate::spec::{AngleUnit, Architecture, Design, Rounding, Throughput};
 use crate::sweep::{
     AreaModel, Configuration, ExactAngle, Figures, Grid, Plan, Point, Record, Shard, Tally, evaluate,
     throughput_named,
@@ -55,6 +55,9 @@ pub(super) struct Sweep {
     /// Clocks between two pixels, 1 to 64, or "iterative": one iteration a clock
     #[arg(long, value_name = "LIST")]
     cycles_per_pixel: Option<String>,
+    /// Modulation frequency, for errors in mm [default: the specification's; 30e6 for an angle unit by itself]
+    #[arg(long, value_name = "HZ")]
+    frequency_hz: Option<f64>,
     /// Vectors drawn in each octave of the amplitude, where both words have more than 24 bits together
     #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = clap::value_parser!(u64).range(1..=1 << 28))]
     samples: u64,
@@ -107,11 +110,12 @@ impl Sweep {
         if let Some(path) = &self.fit_area {
             return self.fit_area(path);
         }
-        let pipeline = Pipeline::named(&self.spec)?;
+        let design = Design::named(&self.spec)?;
         if self.recommend.is_asked_for() {
-            return self.recommended(&pipeline);
+            return self.recommended(&design);
         }
-        let candidates = self.grid(&pipeline)?.configurations()?;
+        let frequency_hz = self.frequency_hz(&design)?;
+        let candidates = self.grid(specification::unit_of(&design))?.configurations()?;
         if let Some(text) = &self.shard {
             return self.one_shard(&candidates, Shard::parse(text)?);
         }
@@ -127,7 +131,7 @@ impl Sweep {
             area: AreaModel::of(unit.architecture).area(unit),
         };
         let points: Vec<Point> = candidates.iter().zip(&tallies).map(point).collect();
-        self.report(&points, pipeline.modulation.frequency_hz)?;
+        self.report(&points, frequency_hz)?;
         if effort.vectors > 0 {
             let seconds = effort.time.as_secs_f64();
             let millions = effort.vectors as f64 / 1e6;
@@ -136,13 +140,24 @@ impl Sweep {
         Ok(ExitCode::SUCCESS)
     }
 
+    /// The modulation frequency that makes a range of a phase.
+    fn frequency_hz(&self, design: &Design) -> Result<f64> {
+        match self.frequency_hz {
+            Some(frequency_hz) if !(1e4..=1e10).contains(&frequency_hz) => {
+                Err(Problem::at("--frequency-hz", frequency_hz).expected("10000 to 1e10 Hz"))
+            }
+            Some(frequency_hz) => Ok(frequency_hz),
+            None => Ok(specification::frequency_hz_of(design)),
+        }
+    }
+
     /// The grid that the options ask for; what they leave out is the specification's.
-    fn grid(&self, pipeline: &Pipeline) -> Result<Grid> {
+    fn grid(&self, unit: &AngleUnit) -> Result<Grid> {
         let numbers = |option: &str, text: &Option<String>, otherwise: u32| match text {
             Some(text) => Grid::numbers(option, text),
             None => Ok(vec![otherwise]),
         };
-        let mut base = specification::configuration_of(pipeline);
+        let mut base = Configuration::of(unit);
         if self.word.is_some() {
             // Not a camera's sums: a unit by itself, which gives the phase alone.
             base.length_bits = 0;

@@ -5,7 +5,7 @@ use super::super::progress;
 use super::{Candidate, Sweep, specification};
 use crate::physics::{Light, Sensor};
 use crate::problem::{Problem, Result};
-use crate::spec::{AngleUnit, Pipeline};
+use crate::spec::{AngleUnit, Design};
 use crate::sweep::{
     AreaModel, ExactAngle, Figures, Grid, Plan, Requirement, Row, SensorNoise, Shard, evaluate,
 };
@@ -52,9 +52,9 @@ impl Recommend {
     }
 
     /// What is asked, and the same in words.
-    fn requirement(&self, pipeline: &Pipeline) -> Result<(Requirement, String)> {
+    fn requirement(&self, design: &Design, frequency_hz: f64) -> Result<(Requirement, String)> {
         if let Some(text) = &self.error {
-            let requirement = Requirement::error(text, pipeline.modulation.frequency_hz)?;
+            let requirement = Requirement::error(text, frequency_hz)?;
             return Ok((requirement, format!("no vector more than {text} off")));
         }
         let Some(text) = &self.add_noise else {
@@ -62,6 +62,7 @@ impl Recommend {
                 .expected("--error or --add-noise")
                 .remedy("add --error 0.1mrad, or --add-noise 1%"));
         };
+        let pipeline = specification::camera_of(design)?;
         let share = Requirement::share(text)?;
         for (option, value) in
             [("--gain-e-per-dn", self.gain_e_per_dn), ("--read-noise-e", self.read_noise_e)]
@@ -94,10 +95,11 @@ impl Recommend {
 
 impl Sweep {
     /// Prints the specification of the least area that meets the requirement.
-    pub(super) fn recommended(&self, pipeline: &Pipeline) -> Result<ExitCode> {
-        let (requirement, words) = self.recommend.requirement(pipeline)?;
+    pub(super) fn recommended(&self, design: &Design) -> Result<ExitCode> {
+        let frequency_hz = self.frequency_hz(design)?;
+        let (requirement, words) = self.recommend.requirement(design, frequency_hz)?;
         let area = |unit: &AngleUnit| AreaModel::of(unit.architecture).area(unit);
-        let mut candidates = self.candidates(pipeline, &requirement)?;
+        let mut candidates = self.candidates(design, &requirement)?;
         let Some(&(first, _)) = candidates.first() else { return Err(unmet(0, &words)) };
         let probe = Plan::new(&first, PROBE_SAMPLES, false);
         let plan = Plan::new(&first, self.samples, self.exhaustive);
@@ -109,7 +111,7 @@ impl Sweep {
             tried += 1;
             let Some(rows) = self.tested(unit, &requirement, [&probe, &plan]) else { continue };
             bar.finish_and_clear();
-            let found = specification::with(pipeline, configuration)?;
+            let text = specification::text_with(design, configuration)?;
             let area = area(unit);
             say!("# By `vuris sweep --recommend`: {words}.");
             say!(
@@ -117,8 +119,8 @@ impl Sweep {
                 candidates.len()
             );
             say!("# Area of its angle unit: {:.0} LUT4 + 2 CCU2C ({}).", area.luts, area.source.name());
-            say!("# {}", errors(pipeline, unit, &rows, &requirement));
-            say!("{}", found.to_toml().trim_end());
+            say!("# {}", errors(frequency_hz, unit, &rows, &requirement));
+            say!("{}", text.trim_end());
             return Ok(ExitCode::SUCCESS);
         }
         bar.finish_and_clear();
@@ -126,7 +128,7 @@ impl Sweep {
     }
 
     /// What is tried: the lists of the options, or all that could make sense.
-    fn candidates(&self, pipeline: &Pipeline, requirement: &Requirement) -> Result<Vec<Candidate>> {
+    fn candidates(&self, design: &Design, requirement: &Requirement) -> Result<Vec<Candidate>> {
         // A specification's phase has 8 to 24 bits.
         let least = requirement.least_phase_bits().max(8);
         if least > MOST_PHASE_BITS {
@@ -134,7 +136,7 @@ impl Sweep {
         }
         // Iterations far from the phase bits cost, or cannot do.
         let iterations = least.saturating_sub(3).max(4)..=(least + 7).min(30);
-        let listed = self.grid(pipeline)?;
+        let listed = self.grid(specification::unit_of(design))?;
         let or = |option: &Option<String>, list: Vec<u32>, otherwise: Vec<u32>| {
             if option.is_some() { list } else { otherwise }
         };
@@ -185,11 +187,11 @@ fn unmet(candidates: usize, words: &str) -> Problem {
 }
 
 /// A line of what was measured and what is proved.
-fn errors(pipeline: &Pipeline, unit: &AngleUnit, rows: &[Row], requirement: &Requirement) -> String {
+fn errors(frequency_hz: f64, unit: &AngleUnit, rows: &[Row], requirement: &Requirement) -> String {
     let max_turns = rows.first().map_or(f64::NAN, |row| row.figures.max_turns);
     let codes = f64::from(unit.phase_bits).exp2();
     let proved_turns = unit.budget().phase_codes() / codes;
-    let turn_mm = 1e3 * unambiguous_range_m(pipeline.modulation.frequency_hz);
+    let turn_mm = 1e3 * unambiguous_range_m(frequency_hz);
     let size = |turns: f64| {
         format!("{:.4} mrad = {:.4} mm = {:.3} LSB", 1e3 * TAU * turns, turns * turn_mm, turns * codes)
     };

@@ -100,13 +100,8 @@ impl Synth {
                 target.accuracy = Some(progress::during(what, || exactness::accuracy(&core))?);
             }
         }
-        let bar = progress::bar(effort.steps(targets.len()) as u64);
-        let measured = measure(&flow, &targets, &effort, &|done| {
-            bar.set_message(done.to_owned());
-            bar.inc(1);
-        });
-        bar.finish_and_clear();
-        let measured = measured?;
+        let measured =
+            progress::steps(effort.steps(targets.len()), |step| measure(&flow, &targets, &effort, step))?;
         say!("{}", report::measured_table(&measured).trim_end());
         if self.spec.is_some() || self.top.is_some() {
             return Ok(ExitCode::SUCCESS);
