@@ -42,6 +42,59 @@ module [[ prefix ]]_accumulator #(
 
   localparam WORD_BITS = 1 + OFFSET_BITS + QUADRATURE_BITS + IN_PHASE_BITS;
 
+[%- if multiplied %]
+
+  // A clock before all others: the step's weights are looked up.
+  reg                    take_q;
+  reg [SAMPLE_BITS-1:0]  sample_q;
+  reg [ADDRESS_BITS-1:0] address_q;
+  reg                    first_frame_q;
+  reg signed [[ "[" ]][[ in_phase_weight_bits - 1 ]]:0] in_phase_weight_q;
+  reg signed [[ "[" ]][[ quadrature_weight_bits - 1 ]]:0] quadrature_weight_q;
+[%- if offset_multiplied %]
+  reg signed [[ "[" ]][[ offset_weight_bits - 1 ]]:0] offset_weight_q;
+[%- endif %]
+
+  always @(posedge clk_i) begin
+    if (!rst_ni) take_q <= 1'b0;
+    else take_q <= take_i;
+  end
+
+  always @(posedge clk_i) begin
+    sample_q      <= sample_i;
+    address_q     <= address_i;
+    first_frame_q <= first_frame_i;
+    case (step_i)
+[%- for step in steps %]
+      [[ step.label ]]: begin
+        in_phase_weight_q   <= [[ step.in_phase_literal ]];
+        quadrature_weight_q <= [[ step.quadrature_literal ]];
+[%- if offset_multiplied %]
+        offset_weight_q     <= [[ step.offset_literal ]];
+[%- endif %]
+      end
+[%- endfor %]
+    endcase
+  end
+
+  // The sample times its weights.
+  wire signed [IN_PHASE_BITS-1:0]   sample_in_phase   = {{(IN_PHASE_BITS-SAMPLE_BITS){1'b0}}, sample_q};
+  wire signed [QUADRATURE_BITS-1:0] sample_quadrature = {{(QUADRATURE_BITS-SAMPLE_BITS){1'b0}}, sample_q};
+  wire signed [IN_PHASE_BITS-1:0]   in_phase_weight   = {{(IN_PHASE_BITS-[[ in_phase_weight_bits ]]){in_phase_weight_q[ [[- in_phase_weight_bits - 1 -]] ]}}, in_phase_weight_q};
+  wire signed [QUADRATURE_BITS-1:0] quadrature_weight = {{(QUADRATURE_BITS-[[ quadrature_weight_bits ]]){quadrature_weight_q[ [[- quadrature_weight_bits - 1 -]] ]}}, quadrature_weight_q};
+  wire signed [IN_PHASE_BITS-1:0]   in_phase_term_d   = sample_in_phase * in_phase_weight;
+  wire signed [QUADRATURE_BITS-1:0] quadrature_term_d = sample_quadrature * quadrature_weight;
+[%- if offset_multiplied %]
+  wire signed [OFFSET_BITS:0]       sample_offset     = {{(OFFSET_BITS+1-SAMPLE_BITS){1'b0}}, sample_q};
+  wire signed [OFFSET_BITS:0]       offset_weight     = {{(OFFSET_BITS+1-[[ offset_weight_bits ]]){offset_weight_q[ [[- offset_weight_bits - 1 -]] ]}}, offset_weight_q};
+  wire signed [OFFSET_BITS:0]       offset_product    = sample_offset * offset_weight;
+  wire        [OFFSET_BITS-1:0]     offset_term_d     = offset_product[OFFSET_BITS-1:0];
+  wire                              unused_sign       = &{1'b0, offset_product[OFFSET_BITS]};
+[%- else %]
+  wire        [OFFSET_BITS-1:0]     offset_term_d     = {{(OFFSET_BITS-SAMPLE_BITS){1'b0}}, sample_q};
+[%- endif %]
+[%- else %]
+
   // The sample times its weights, as shifts and adds.
   wire signed [IN_PHASE_BITS-1:0]   sample_in_phase   = {{(IN_PHASE_BITS-SAMPLE_BITS){1'b0}}, sample_i};
   wire signed [QUADRATURE_BITS-1:0] sample_quadrature = {{(QUADRATURE_BITS-SAMPLE_BITS){1'b0}}, sample_i};
@@ -62,6 +115,7 @@ module [[ prefix ]]_accumulator #(
 [%- endfor %]
     endcase
   end
+[%- endif %]
 
   // First clock: the term is formed while the memory is read. Second: it is added. Third: the sum is written.
   reg                              term_valid_q;
@@ -98,8 +152,8 @@ module [[ prefix ]]_accumulator #(
     .write_i        (sum_valid_q),
     .write_address_i(sum_address_q),
     .write_data_i   (sum_q),
-    .read_i         (drain_busy_q ? drain_read : take_i),
-    .read_address_i (drain_busy_q ? drain_address_q[ADDRESS_BITS-1:0] : address_i),
+    .read_i         (drain_busy_q ? drain_read : take_[[ at ]]),
+    .read_address_i (drain_busy_q ? drain_address_q[ADDRESS_BITS-1:0] : address_[[ at ]]),
     .read_data_o    (word)
   );
 
@@ -120,7 +174,7 @@ module [[ prefix ]]_accumulator #(
       drain_busy_q <= 1'b0;
       valid_q      <= 1'b0;
     end else begin
-      term_valid_q <= take_i;
+      term_valid_q <= take_[[ at ]];
       sum_valid_q  <= term_valid_q;
       if (drain_start_i) drain_busy_q <= 1'b1;
       else if (drain_end && advance_i) drain_busy_q <= 1'b0;
@@ -129,12 +183,12 @@ module [[ prefix ]]_accumulator #(
   end
 
   always @(posedge clk_i) begin
-    term_first_q      <= first_frame_i;
-    term_address_q    <= address_i;
+    term_first_q      <= first_frame_[[ at ]];
+    term_address_q    <= address_[[ at ]];
     in_phase_term_q   <= in_phase_term_d;
     quadrature_term_q <= quadrature_term_d;
     offset_term_q     <= offset_term_d;
-    saturated_term_q  <= sample_i >= SATURATION[SAMPLE_BITS-1:0];
+    saturated_term_q  <= sample_[[ at ]] >= SATURATION[SAMPLE_BITS-1:0];
 
     sum_address_q <= term_address_q;
     sum_q         <= {

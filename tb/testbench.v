@@ -198,14 +198,15 @@ module testbench;
 
   initial for (stage = 0; stage < STAGES; stage = stage + 1) record[stage] = 0;
 
-  task surplus(input integer at);
+  task automatic surplus(input integer at);
     begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) $display("SURPLUS stage=%0d record=%0d clock=%0d", at, record[at], clocks);
     end
   endtask
 
-  task report(input [8*32-1:0] name, input integer number, input [63:0] wanted, input [63:0] found);
+  task automatic report(input reg [8*32-1:0] name, input integer number, input reg [63:0] wanted,
+                        input reg [63:0] found);
     begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) begin
@@ -387,6 +388,7 @@ module testbench;
           if (m_axis_tuser !== (pixel == 0)) report("output.first", record[ [[- stage.number -]] ], pixel == 0, m_axis_tuser);
           if (m_axis_tlast !== (pixel % WIDTH == WIDTH - 1))
             report("output.last", record[ [[- stage.number -]] ], pixel % WIDTH == WIDTH - 1, m_axis_tlast);
+          if ((m_axis_tdata & [[ bench.padding ]]) !== [[ bench.result_bits ]]'d0) report("output.padding", record[ [[- stage.number -]] ], 64'd0, 64'd1);
           compared = compared + 2;
           saturated_pixels = saturated_pixels + expected_saturated[record[ [[- stage.number -]] ]];
           if (pixel == 0) set_number = set_number + 1;
@@ -428,9 +430,14 @@ module testbench;
         mismatches = mismatches + 1;
         $display("STUCK stimulus=%0d of %0d clock=%0d: the input was not taken", word, STIMULUS, clocks);
       end
-      if (mismatches == 0) $display("PASS values=%0d clocks=%0d", compared, clocks);
-      else $display("FAIL mismatches=%0d clocks=%0d", mismatches, clocks);
-      $finish;
+      if (mismatches == 0) begin
+        $display("PASS values=%0d clocks=%0d", compared, clocks);
+        $finish;
+      end else begin
+        // A stop, so that `vvp -N` and its like end with an exit code that is not 0.
+        $display("FAIL mismatches=%0d clocks=%0d", mismatches, clocks);
+        $stop;
+      end
     end
 
     // The source, after the checks. A beat stays offered until it is taken; an operation begins when the beat before it has been.
@@ -450,7 +457,7 @@ module testbench;
           exact    = 1'b1;
         end else if (next[19:16] == 4'ha) begin  // reset: what is still under way is lost
           word      = word + 1;
-          wait_for  = 4;
+          wait_for  = 1 + $unsigned($random(seed)) % 4;
           resetting = 1'b1;
           rst_n    <= 1'b0;
           for (stage = 0; stage < STAGES; stage = stage + 1) begin

@@ -183,6 +183,7 @@ struct Bench {
     silence: u32,
     sample_bus: u32,
     result_bits: u32,
+    padding: String,
 }
 
 #[derive(Template)]
@@ -201,6 +202,15 @@ struct Testbench<'a> {
 #[template(path = "harness.cpp", escape = "none")]
 struct Harness<'a> {
     bench: &'a Bench,
+}
+
+/// A literal with ones where the result word has no field.
+fn padding(pipeline: &Pipeline) -> String {
+    let bits = result_bits(pipeline);
+    let fields = result_fields(pipeline);
+    let within = |bit: u32| fields.iter().any(|field| (field.low..field.low + field.bits).contains(&bit));
+    let ones: String = (0..bits).rev().map(|bit| if within(bit) { '0' } else { '1' }).collect();
+    format!("{bits}'b{ones}")
 }
 
 fn bench(source: &Source, golden: &Golden) -> Bench {
@@ -266,6 +276,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
         silence: pipeline.sensor.line_blanking_clocks,
         sample_bus: pipeline.derived().sample.bits.next_multiple_of(8),
         result_bits: result_bits(pipeline),
+        padding: padding(pipeline),
     }
 }
 
@@ -297,7 +308,7 @@ pub fn bench_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
 }
 
 /// One value a line, in hexadecimal, as `$readmemh` reads it.
-fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
+pub(super) fn hex(note: &str, bits: u32, values: impl Iterator<Item = u64>) -> String {
     let digits = bits.div_ceil(4) as usize;
     let mut text = format!("// {note}\n");
     for value in values {

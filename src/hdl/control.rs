@@ -1,7 +1,8 @@
 //! Template contexts of the modules that move data: stream register, delay, framing, sum memory, accumulator.
 
 use super::Source;
-use super::text::counter_bits;
+use super::text::{counter_bits, signed_literal};
+use crate::spec::Word;
 use askama::Template;
 
 #[derive(Template)]
@@ -36,7 +37,7 @@ pub(super) struct Counters {
 
 impl Counters {
     pub(super) fn new(source: &Source) -> Self {
-        let (geometry, scheme) = (source.pipeline.geometry(), source.pipeline.modulation.scheme);
+        let (geometry, scheme) = (source.pipeline.geometry(), &source.pipeline.modulation.scheme);
         Self {
             column_bits: counter_bits(geometry.width - 1),
             row_bits: counter_bits(geometry.height - 1),
@@ -115,6 +116,10 @@ struct Step {
     number: usize,
     /// The case label.
     label: String,
+    /// The weights as literals, for a multiplier.
+    in_phase_literal: String,
+    quadrature_literal: String,
+    offset_literal: String,
     in_phase: i64,
     quadrature: i64,
     offset: i64,
@@ -128,8 +133,17 @@ struct Step {
 struct Accumulator {
     banner: String,
     prefix: String,
-    scheme: &'static str,
+    scheme: String,
     steps: Vec<Step>,
+    /// The sample is multiplied by a weight from a table, a clock later than by shifts and adds.
+    multiplied: bool,
+    /// What the port's names end in after that clock: `i`, or `q` where there is one.
+    at: &'static str,
+    /// The offset's weights are not all 1, and multiplied, too.
+    offset_multiplied: bool,
+    in_phase_weight_bits: u32,
+    quadrature_weight_bits: u32,
+    offset_weight_bits: u32,
     sample_bits: u32,
     in_phase_bits: u32,
     quadrature_bits: u32,
@@ -144,13 +158,25 @@ struct Accumulator {
 
 pub(super) fn accumulator(source: &Source, banner: String) -> askama::Result<String> {
     let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
-    let scheme = pipeline.modulation.scheme;
+    let scheme = &pipeline.modulation.scheme;
     let Counters { column_bits, address_bits, step_bits, .. } = Counters::new(source);
     let last_step = scheme.steps() - 1;
+    let weights = [&scheme.in_phase, &scheme.quadrature, &scheme.offset];
+    let multiplied =
+        weights.iter().any(|weights| weights.iter().any(|weight| weight.abs() > MOST_SHIFTED_WEIGHT));
+    let bits = |weights: &[i64]| {
+        let (least, most) = weights.iter().fold((0, 0), |(least, most), &w| (w.min(least), w.max(most)));
+        // A sign even where there is none, so that all products are signed.
+        Word::holding(least.min(-1), most).bits
+    };
+    let [in_phase_weight_bits, quadrature_weight_bits, offset_weight_bits] = weights.map(|w| bits(w));
     let steps = (0..scheme.steps())
         .map(|number| Step {
             number,
             label: if number == last_step { "default".to_owned() } else { format!("{step_bits}'d{number}") },
+            in_phase_literal: signed_literal(in_phase_weight_bits, scheme.in_phase[number]),
+            quadrature_literal: signed_literal(quadrature_weight_bits, scheme.quadrature[number]),
+            offset_literal: signed_literal(offset_weight_bits, scheme.offset[number]),
             in_phase: scheme.in_phase[number],
             quadrature: scheme.quadrature[number],
             offset: scheme.offset[number],
@@ -162,8 +188,14 @@ pub(super) fn accumulator(source: &Source, banner: String) -> askama::Result<Str
     Accumulator {
         banner,
         prefix: pipeline.prefix(),
-        scheme: scheme.name,
+        scheme: scheme.name.to_string(),
         steps,
+        multiplied,
+        at: if multiplied { "q" } else { "i" },
+        offset_multiplied: scheme.offset.iter().any(|&weight| weight != 1),
+        in_phase_weight_bits,
+        quadrature_weight_bits,
+        offset_weight_bits,
         sample_bits: derived.sample.bits,
         in_phase_bits: derived.in_phase.bits,
         quadrature_bits: derived.quadrature.bits,
@@ -177,6 +209,9 @@ pub(super) fn accumulator(source: &Source, banner: String) -> askama::Result<Str
     }
     .render()
 }
+
+/// A scheme with a larger weight, either sign, multiplies; up to it, a weight is three additions or fewer.
+const MOST_SHIFTED_WEIGHT: i64 = 15;
 
 /// `sample` times `weight` as shifts and adds, one a set bit of the weight.
 fn term(sample: &str, weight: i64, zero: &str) -> String {

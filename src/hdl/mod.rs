@@ -7,12 +7,14 @@ mod bench;
 mod control;
 mod golden;
 mod polar;
+mod poly;
 mod registers;
+mod rom;
 mod sequencer;
 mod text;
 mod top;
 
-pub use angle::AngleSource;
+pub use angle::{AngleSource, angle_core_artifacts, angle_stimulus};
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
 pub use golden::{Epoch, Golden, GoldenAccess, Rest, Scenario, Segment, StimulusWord};
 pub use top::{ResultField, result_bits, result_fields};
@@ -119,11 +121,24 @@ pub fn modules(pipeline: &Pipeline) -> Vec<(&'static str, &'static str)> {
         .collect()
 }
 
+/// The nouns of all modules that any pipeline has, in the order in which they are listed.
+pub fn module_nouns() -> impl Iterator<Item = &'static str> {
+    let mut nouns: Vec<&'static str> = MODULES.iter().map(|module| module.noun).collect();
+    // Another architecture's module of the same noun is the same row.
+    for module in ANGLE_MODULES {
+        if !nouns.contains(&module.noun) {
+            nouns.push(module.noun);
+        }
+    }
+    nouns.into_iter()
+}
+
 /// The Verilog files of the angle unit alone, its top module `<prefix>_angle` last, and the file list.
 pub fn angle_artifacts(source: &AngleSource, spec: &str) -> Vec<Artifact> {
     let mut artifacts = angle_files(source, spec);
     let top = format!("{}_angle", source.prefix);
     artifacts.push(file_list(&artifacts, &top, spec));
+    artifacts.extend(poly::ecp5_artifact(source, spec));
     artifacts
 }
 

@@ -1,9 +1,10 @@
 //! The specification's TOML file: reading, checking and writing.
 
+use super::angle::{read_cordic, write_cordic};
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Cordic, Modulation, ONE_ITERATION_A_CLOCK, Output, PRESETS, Pipeline, RegisterBlock, Rounding, Scheme,
-    Sensor, Specification, Throughput, Word, normalised_order, refused, scheme, scheme_names, sequence,
+    Modulation, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order, refused,
+    scheme_file, sequence,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -11,15 +12,13 @@ use std::path::Path;
 
 const FORMAT: &str = "vuris-pipeline/1";
 
-/// Reads the file at `path`.
-pub(super) fn read(path: &str) -> Result<Pipeline> {
-    let text = read_text(Path::new(path)).map_err(|error| {
-        let presets = PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
+/// The text of the file at `path`; `presets` are the names that would have done, too.
+pub(super) fn read(path: &str, presets: &str) -> Result<String> {
+    read_text(Path::new(path)).map_err(|error| {
         Problem::io(Path::new(path), "read the specification", &error)
             .expected(format_args!("a file, or one of the presets {presets}"))
             .remedy("`vuris explain --spec vuris --toml > my.toml` writes a file to start from")
-    })?;
-    Pipeline::parse(path, &text)
+    })
 }
 
 /// The text of a regular file of a plausible size: a device would be read for ever.
@@ -59,29 +58,26 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let modulation = top.section("modulation")?;
-    modulation.only(&["scheme", "frequency_hz", "frames_per_step", "order", "phase_step_bits"])?;
-    let one_of = format!("one of {}", scheme_names());
-    let scheme =
-        scheme(modulation.text("scheme", &one_of)?).ok_or_else(|| modulation.refuse("scheme", &one_of))?;
+    modulation.only(&[
+        "scheme",
+        "frequency_hz",
+        "frames_per_step",
+        "frames",
+        "coefficient_bits",
+        "order",
+        "phase_step_bits",
+    ])?;
+    let scheme = scheme_file::read(source, &modulation)?;
     let modulation = Modulation {
-        scheme,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
-        order: order(&modulation, scheme)?,
+        order: order(&modulation, &scheme)?,
+        scheme,
         phase_step_bits: modulation.integer_or("phase_step_bits", 2..=24, DEFAULT_PHASE_STEP_BITS.into())?
             as u32,
     };
 
     let cordic = top.section("cordic")?;
-    cordic.only(&[
-        "iterations",
-        "vector_guard_bits",
-        "angle_guard_bits",
-        "cycles_per_pixel",
-        "pipeline_every",
-        "normalise",
-        "rounding",
-    ])?;
     let cordic = read_cordic(&cordic)?;
 
     let output = top.section("output")?;
@@ -130,67 +126,23 @@ fn registers(top: &Fields) -> Result<RegisterBlock> {
     })
 }
 
-/// The table [cordic].
-fn read_cordic(fields: &Fields) -> Result<Cordic> {
-    let cycles = format!("a whole number from 1 to 64, or \"{ONE_ITERATION_A_CLOCK}\"");
-    let throughput = match fields.text("cycles_per_pixel", &cycles) {
-        Ok(ONE_ITERATION_A_CLOCK) => Throughput::OneIterationAClock,
-        _ if !fields.has("cycles_per_pixel") => Throughput::CyclesPerPixel(1),
-        _ => Throughput::CyclesPerPixel(
-            fields
-                .integer("cycles_per_pixel", 1..=64)
-                .map_err(|_| fields.refuse("cycles_per_pixel", &cycles))? as u32,
-        ),
-    };
-    let roundings = ROUNDINGS.map(|(name, _)| name).join(" or ");
-    let rounding = if fields.has("rounding") {
-        let name = fields.text("rounding", &roundings)?;
-        let known = ROUNDINGS.iter().find(|row| row.0 == name);
-        known.ok_or_else(|| fields.refuse("rounding", &roundings))?.1
+pub(super) const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
+
+/// Refuses a name that cannot begin the names of Verilog modules.
+pub(super) fn check_name(source: &str, name: &str) -> Result<()> {
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
+    if begins_well && name.chars().all(letter) && name.len() <= 32 {
+        Ok(())
     } else {
-        Rounding::Nearest
-    };
-    Ok(Cordic {
-        iterations: fields.integer("iterations", 4..=30)? as u32,
-        vector_guard_bits: fields.integer("vector_guard_bits", 0..=8)? as u32,
-        angle_guard_bits: fields.integer("angle_guard_bits", 1..=8)? as u32,
-        throughput,
-        pipeline_every: fields.integer_or("pipeline_every", 1..=30, 1)? as u32,
-        normalise: fields.flag_or("normalise", true)?,
-        rounding,
-    })
+        Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE))
+    }
 }
-
-/// The table [cordic] as text.
-fn write_cordic(cordic: &Cordic) -> String {
-    let throughput = match cordic.throughput {
-        Throughput::CyclesPerPixel(clocks) => clocks.to_string(),
-        Throughput::OneIterationAClock => format!("\"{ONE_ITERATION_A_CLOCK}\""),
-    };
-    let rounding = ROUNDINGS.iter().find(|row| row.1 == cordic.rounding).map_or("", |row| row.0);
-    format!(
-        "[cordic]\niterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\ncycles_per_pixel = {throughput}\n\
-         pipeline_every = {}\nnormalise = {}\nrounding = \"{rounding}\"\n",
-        cordic.iterations,
-        cordic.vector_guard_bits,
-        cordic.angle_guard_bits,
-        cordic.pipeline_every,
-        cordic.normalise,
-    )
-}
-
-const ROUNDINGS: [(&str, Rounding); 2] = [("nearest", Rounding::Nearest), ("truncate", Rounding::Truncate)];
-
-const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
 
 /// What only shows between fields, and what a specification made in code could get wrong.
 pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
     let Specification { name, sensor, .. } = specification;
-    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
-    if !begins_well || !name.chars().all(letter) || name.len() > 32 {
-        return Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE));
-    }
+    check_name(source, name)?;
     for (field, value, allowed) in
         [("sensor.width", sensor.width, 2..=4096), ("sensor.height", sensor.height, 1..=4096)]
     {
@@ -234,8 +186,8 @@ pub(super) fn write(specification: &Specification) -> String {
          \n[sensor]\n\
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
-         scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
-         order = {:?}\nphase_step_bits = {}\n\
+         {}frequency_hz = {:?}\nframes_per_step = {}\n\
+         order = {:?}\nphase_step_bits = {}\n{}\
          \n{}\n[output]\n\
          phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
          distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
@@ -246,11 +198,12 @@ pub(super) fn write(specification: &Specification) -> String {
         sensor.adc_bits,
         sensor.saturation_dn,
         sensor.line_blanking_clocks,
-        modulation.scheme.name,
+        scheme_file::fields(&modulation.scheme),
         modulation.frequency_hz,
         modulation.frames_per_step,
         modulation.steps_in_order(),
         modulation.phase_step_bits,
+        scheme_file::table(&modulation.scheme),
         write_cordic(cordic),
         output.phase_bits,
         output.amplitude,

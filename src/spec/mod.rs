@@ -6,28 +6,40 @@
 mod angle;
 mod budget;
 mod derived;
+mod design;
+mod dft;
 pub mod exact;
 mod file;
+mod poly;
 mod presets;
 mod registers;
+mod response;
+mod row;
 mod scheme;
+mod scheme_file;
 mod sequence;
+mod step_angle;
 mod word;
 
 pub use angle::{
-    AngleBudget, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic, ONE_ITERATION_A_CLOCK,
-    Rounding, StageWord, Stages, Throughput,
+    AngleBudget, AngleCore, AngleGroup, AngleSpecification, AngleUnit, Architecture, Atan, Cordic,
+    ONE_ITERATION_A_CLOCK, Rounding, StageWord, Stages, Throughput,
 };
 pub use budget::{Contribution, ErrorBudget};
 pub use derived::Derived;
+pub use design::Design;
+pub use dft::{COEFFICIENT_BITS, DFT_FRAMES};
 pub use exact::ScaledConstant;
-pub use presets::{PRESETS, Preset};
+pub use poly::{Arctangent, MULTIPLIER_CLOCKS, Poly, PolySpecification, Reciprocal, Tables};
+pub use presets::{ANGLE_PRESETS, PRESETS, Preset};
 pub use registers::{
     ADDRESS_BITS, Content, Counter, IDENTIFICATION, REGISTER_BYTES, REGISTERS, Register, RegisterBlock,
     register_at,
 };
-pub use scheme::{Irrational, SCHEMES, Scheme, scheme, scheme_names};
+pub use row::{Row, offset_weights};
+pub use scheme::{Irrational, SCHEMES, Scheme, SchemeOrigin, scheme, scheme_names};
 pub use sequence::normalised_order;
+pub use step_angle::StepAngle;
 pub use word::Word;
 
 use crate::frames::Geometry;
@@ -52,8 +64,8 @@ pub struct Sensor {
 /// Modulation and phase stepping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modulation {
-    /// The row of [`SCHEMES`].
-    pub scheme: &'static Scheme,
+    /// How a phase is made of the raw frames: a row of [`SCHEMES`], a DFT, or a row of the specification's own.
+    pub scheme: Scheme,
     /// Modulation frequency, Hz, 10 kHz to 10 GHz.
     pub frequency_hz: f64,
     /// Raw frames accumulated for one phase step, 1 to 256.
@@ -127,7 +139,10 @@ impl Pipeline {
     pub fn named(name: &str) -> Result<Self> {
         match PRESETS.iter().find(|preset| preset.name == name) {
             Some(preset) => Self::parse(preset.name, preset.text),
-            None => file::read(name),
+            None => {
+                let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+                Self::parse(name, &file::read(name, &names.join(", "))?)
+            }
         }
     }
 
