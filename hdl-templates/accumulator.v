@@ -14,7 +14,9 @@ module [[ prefix ]]_accumulator #(
   parameter IN_PHASE_BITS   = [[ in_phase_bits ]],  // in-phase sum, signed
   parameter QUADRATURE_BITS = [[ quadrature_bits ]],  // quadrature sum, signed
   parameter OFFSET_BITS     = [[ offset_bits ]],  // offset sum, unsigned
-  parameter WORD_BITS       = [[ word_bits ]],  // what is kept of a pixel
+[%- for sum in own_sums %]
+  parameter [[ sum.bits_name ]]    = [[ sum.bits ]],  // a sum that is kept, unsigned
+[%- endfor %]
   parameter ADDRESS_BITS    = [[ address_bits ]],  // a pixel's number
   parameter COLUMN_BITS     = [[ column_bits ]],  // a column's number
   parameter STEP_BITS       = [[ step_bits ]],  // a phase step's number
@@ -41,6 +43,8 @@ module [[ prefix ]]_accumulator #(
   output wire        [OFFSET_BITS-1:0]     offset_o,         // sum of offset weight x code
   output wire                              saturated_o       // a sample of any frame was saturated
 );
+
+  localparam WORD_BITS = 1[% for sum in sums %] + [[ sum.bits_name ]][% endfor %];
 [% if multiplied %]
   // A clock before all others: the step's weights are looked up.
   reg                    take_q;
@@ -133,7 +137,7 @@ module [[ prefix ]]_accumulator #(
 
   wire [WORD_BITS-1:0] word;
 [%- for sum in sums %]
-  wire [[ sum.range ]] [[ sum.name ]]_before = word[[ self::slice(sum.high, sum.low) ]];
+  wire [[ sum.range ]] [[ sum.name ]]_before = word[[ "[" ]][[ sum.low ]] +: [[ sum.bits_name ]]];
 [%- endfor %]
   wire saturated_before = word[WORD_BITS-1];
 
@@ -199,7 +203,7 @@ module [[ prefix ]]_accumulator #(
     sum_q         <= {
       (saturated_before && !term_first_q) || saturated_term_q,
 [%- for sum in sums_from_top %]
-      (term_first_q ? [[ sum.zero ]] : [[ sum.name ]]_before) + [[ sum.name ]]_term_q[% if sum.low > 0 %],[% endif %]
+      (term_first_q ? [[ sum.zero ]] : [[ sum.name ]]_before) + [[ sum.name ]]_term_q[% if !sum.lowest %],[% endif %]
 [%- endfor %]
     };
 

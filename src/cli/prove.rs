@@ -44,7 +44,13 @@ impl Prove {
             for fault in FAULTS.iter().filter(|fault| fault.proof == proof.name && !self.no_faults) {
                 let findings = progress::during(fault.name, || formal::prove(&pipeline, proof, Some(fault)))?;
                 match findings.iter().find(|finding| !finding.holds()) {
-                    Some(seen) => say!("  seen:  {}: {}: {} violated {}", fault.noun, fault.name, seen.what, seen.answer),
+                    Some(seen) => say!(
+                        "  seen:  {}: {}: {} violated {}",
+                        fault.noun,
+                        fault.name,
+                        seen.what,
+                        seen.answer
+                    ),
                     None => say!("  MISSED: {}: {}", fault.noun, fault.name),
                 }
                 agrees &= findings.iter().any(|finding| !finding.holds());

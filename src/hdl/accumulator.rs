@@ -64,9 +64,12 @@ struct Step {
 struct Sum {
     name: &'static str,
     bits: u32,
-    top: u32,
-    high: u32,
-    low: u32,
+    /// The parameter that holds its bits.
+    bits_name: String,
+    top: String,
+    /// Its lowest bit in a pixel's word.
+    low: String,
+    lowest: bool,
     range: String,
     zero: String,
     /// The sample, as wide as the sum; zeros above the sample of a product; the sum, as wide as a combination.
@@ -96,6 +99,8 @@ struct Accumulator {
     plain: bool,
     sums: Vec<Sum>,
     sums_from_top: Vec<Sum>,
+    /// Those whose bits are not a parameter already.
+    own_sums: Vec<Sum>,
     mixed_range: String,
     mixed_top: u32,
     in_phase_mix: String,
@@ -105,7 +110,6 @@ struct Accumulator {
     in_phase_bits: u32,
     quadrature_bits: u32,
     offset_bits: u32,
-    word_bits: u32,
     address_bits: u32,
     column_bits: u32,
     step_bits: u32,
@@ -154,20 +158,26 @@ pub(super) fn accumulator(source: &Source, banner: String) -> askama::Result<Str
         })
         .collect();
     let sums = || {
-        let mut low = 0;
+        let mut below: Vec<String> = Vec::new();
         stored
             .iter()
             .map(|StoredSum { name, weights, word }| {
                 let (bits, weight_bits) = (word.bits, weight_bits(weights));
+                let bits_name = format!("{}_BITS", name.to_uppercase());
                 let sum = Sum {
                     name,
                     bits,
-                    top: bits - 1,
-                    high: low + bits - 1,
-                    low,
-                    range: range(bits),
-                    zero: literal(bits, 0),
-                    sample: zero_extended("sample_i", sample_bits, bits),
+                    top: format!("{bits_name}-1"),
+                    low: if below.is_empty() { "0".to_owned() } else { below.join("+") },
+                    lowest: below.is_empty(),
+                    range: format!("[{bits_name}-1:0]"),
+                    zero: format!("{{{bits_name}{{1'b0}}}}"),
+                    // A replication must not be of nothing.
+                    sample: match bits - sample_bits {
+                        0 => "sample_i".to_owned(),
+                        _ => format!("{{{{({bits_name}-SAMPLE_BITS){{1'b0}}}}, sample_i}}"),
+                    },
+                    bits_name: bits_name.clone(),
                     sample_zeros: literal(bits + 1 - sample_bits, 0),
                     mixed: zero_extended(&format!("{name}_before"), bits, mixed_bits),
                     product_range: range(bits + 1),
@@ -175,7 +185,7 @@ pub(super) fn accumulator(source: &Source, banner: String) -> askama::Result<Str
                     weight_top: weight_bits - 1,
                     weight_signs: bits + 1 - weight_bits,
                 };
-                low += bits;
+                below.push(bits_name);
                 sum
             })
             .collect::<Vec<Sum>>()
@@ -204,6 +214,7 @@ pub(super) fn accumulator(source: &Source, banner: String) -> askama::Result<Str
         plain: storage.is_plain(),
         sums: sums(),
         sums_from_top: sums().into_iter().rev().collect(),
+        own_sums: if storage.is_plain() { Vec::new() } else { sums() },
         mixed_range: range(mixed_bits),
         mixed_top: mixed_bits - 1,
         in_phase_mix: mix(0),
@@ -213,7 +224,6 @@ pub(super) fn accumulator(source: &Source, banner: String) -> askama::Result<Str
         in_phase_bits: derived.in_phase.bits,
         quadrature_bits: derived.quadrature.bits,
         offset_bits: derived.offset_sum.bits,
-        word_bits: derived.memory_word_bits,
         address_bits,
         column_bits,
         step_bits,

@@ -74,6 +74,7 @@ impl Target {
             Architecture::Unrolled => "unrolled",
             Architecture::Folded { .. } => "folded",
             Architecture::Iterative => "iterative",
+            Architecture::Tables => "tables and multipliers",
         };
         Ok(Self {
             name: core.name.clone(),

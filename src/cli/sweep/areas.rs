@@ -6,7 +6,7 @@ use crate::hdl::{AngleSource, angle_artifacts};
 use crate::problem::Result;
 use crate::spec::AngleUnit;
 use crate::sweep::{Area, AreaModel, AreaSource};
-use crate::synthesis::{Design, Family, Flow};
+use crate::synthesis::{Family, Flow, Verilog};
 use rayon::prelude::*;
 
 /// By the fitted model.
@@ -21,8 +21,9 @@ pub(super) fn synthesised(candidates: &[Candidate]) -> Result<Vec<Area>> {
     bar.set_message("synthesising");
     let area = |(_, unit): &Candidate| {
         let source = AngleSource { prefix: "sweep", unit, meta_bits: 1 };
-        let design = Design::new("sweep_angle", "clk_i", angle_artifacts(&source, "sweep"))?;
-        let luts = flow.area(&design, Family::Ecp5)?.luts as f64;
+        let files = angle_artifacts(&source, "sweep").into_iter().filter(|file| file.path.ends_with(".v"));
+        let verilog = Verilog::new("sweep_angle", "clk_i", files.collect())?;
+        let luts = flow.area(&verilog, Family::Ecp5)?.luts as f64;
         bar.inc(1);
         Ok(Area { luts, source: AreaSource::Synthesised })
     };

@@ -38,7 +38,13 @@ impl std::fmt::Display for Answer {
 
 /// Asks for the bit `watch` of the property file `text` around the Verilog `files` in `folder`: at any time, or within `bound`
 /// clocks.
-pub(super) fn ask(folder: &Path, files: &[String], text: &str, watch: &str, bound: Option<u32>) -> Result<Answer> {
+pub(super) fn ask(
+    folder: &Path,
+    files: &[String],
+    text: &str,
+    watch: &str,
+    bound: Option<u32>,
+) -> Result<Answer> {
     let properties = folder.join("properties.sv");
     std::fs::write(&properties, text).map_err(|error| Problem::io(&properties, "write", &error))?;
     // Registers without a reset start with anything; so does what nobody drives.

@@ -53,7 +53,8 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
         fault.seed(&pipeline.prefix(), &mut rtl)?;
     }
     artifact::write(temporary.path(), &rtl)?;
-    let files: Vec<String> = rtl.iter().map(|file| file.path.clone()).filter(|path| path.ends_with(".v")).collect();
+    let files: Vec<String> =
+        rtl.iter().map(|file| file.path.clone()).filter(|path| path.ends_with(".v")).collect();
     let text = format!("{}{}", (proof.definitions)(pipeline), proof.text);
     let mut findings = Vec::new();
     for (list, cover) in [("bad", false), ("seen", true)] {

@@ -27,7 +27,9 @@ pub const PROOFS: &[Proof] = &[
         name: "stream",
         purpose: "the stream register keeps the rules of AXI4-Stream, loses, repeats and reorders nothing, and holds two words at most",
         text: include_str!("../../../formal/stream.sv"),
-        definitions: |pipeline| define("STREAM_REGISTER", format_args!("{}_stream_register", pipeline.prefix())),
+        definitions: |pipeline| {
+            define("STREAM_REGISTER", format_args!("{}_stream_register", pipeline.prefix()))
+        },
         bound_clocks: None,
         cover_clocks: 30,
     },
@@ -61,8 +63,10 @@ pub const PROOFS: &[Proof] = &[
 impl Proof {
     /// The bits of the file's list `bad` or `seen` and what they say, from the comments beside them.
     pub fn names(&self, list: &str) -> Vec<(usize, String)> {
-        let block = self.text.split(&format!("] {list} = {{")).nth(1).and_then(|rest| rest.split("};").next());
-        let comments = block.unwrap_or("").lines().filter_map(|line| line.split_once("// ")).map(|(_, comment)| comment);
+        let block =
+            self.text.split(&format!("] {list} = {{")).nth(1).and_then(|rest| rest.split("};").next());
+        let comments =
+            block.unwrap_or("").lines().filter_map(|line| line.split_once("// ")).map(|(_, comment)| comment);
         let mut names: Vec<(usize, String)> = comments
             .filter_map(|comment| comment.trim().split_once(' '))
             .filter_map(|(number, what)| Some((number.parse().ok()?, what.trim().to_owned())))
@@ -88,7 +92,7 @@ fn framing(pipeline: &Pipeline) -> String {
 const SAMPLE_BITS: u32 = 2;
 
 fn sums(pipeline: &Pipeline) -> String {
-    let scheme = pipeline.modulation.scheme;
+    let scheme = &pipeline.modulation.scheme;
     let frames = pipeline.modulation.frames_per_step as i64;
     let scale = Word::unsigned(SAMPLE_BITS).max() * frames;
     let bounds = |weights: &[i64]| {
@@ -96,7 +100,14 @@ fn sums(pipeline: &Pipeline) -> String {
         (total(-1), total(1))
     };
     let bits = |(low, high)| Word::holding(low, high).bits;
-    let (in_phase, quadrature, offset) = (bounds(scheme.in_phase), bounds(scheme.quadrature), bounds(scheme.offset));
+    let (in_phase, quadrature, offset) =
+        (bounds(&scheme.in_phase), bounds(&scheme.quadrature), bounds(&scheme.offset));
+    // What is kept in place of the sums has parameters of its own.
+    let storage = &pipeline.derived().storage;
+    let own = storage.sums.iter().filter(|_| !storage.is_plain());
+    let kept: String = own
+        .map(|sum| format!(" .{}_BITS({}),", sum.name.to_uppercase(), bits(bounds(&sum.weights))))
+        .collect();
     let steps = scheme.steps();
     let mut weights = String::new();
     for step in 0..steps {
@@ -114,6 +125,7 @@ fn sums(pipeline: &Pipeline) -> String {
         define("IN_PHASE_BITS", bits(in_phase)),
         define("QUADRATURE_BITS", bits(quadrature)),
         define("OFFSET_BITS", bits(offset)),
+        define("KEPT_PARAMETERS", kept),
         define("STEPS", steps),
         define("STEP_BITS", Word::holding(0, steps as i64 - 1).bits),
         define("REPEATS", frames),
