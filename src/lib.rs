@@ -25,9 +25,13 @@
 //! | [`model`] | the hardware in integers, one file a module |
 //! | [`hdl`] | Verilog, benches and golden vectors from templates |
 //! | [`cosim`] | building and running the simulators, comparing stage by stage |
+//! | [`package`] | what surrounds the Verilog: FuseSoC package, lists, constraints, numbers for programs, diagrams, guide |
+//! | [`synthesis`] | area and clock frequency by real synthesis, and the gate on them |
+//! | [`proof`] | what the checks are worth: mutants of the RTL, coverage, formal proofs |
 //! | [`recording`] | the recording format, read and written |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
 //! | [`physics`] | the forward simulator of raw frames |
+//! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
 //! | [`cli`] | one file a command |
@@ -35,8 +39,8 @@
 //! # What is absent on purpose
 //! - **No floating point in [`model`]**, no I/O, nothing that can fail. Constants come from [`spec::exact`].
 //! - **[`model`] and [`physics`] never see each other**: they meet in frames. [`hdl`] never sees [`physics`].
-//! - **Only [`cli`], [`recording`], [`artifact`], [`cosim`] and the reading of a specification touch files or processes**;
-//!   only [`cli`] knows clap, only [`hdl`] and [`report`] may know askama.
+//! - **Only [`cli`], [`recording`], [`artifact`], [`cosim`], [`proof`], [`synthesis`] and the reading of a specification touch
+//!   files or processes**; only [`cli`] knows clap, only [`hdl`], [`package`] and [`report`] may know askama.
 //!
 //! `tests/architecture.rs` asserts each of these sentences.
 
@@ -47,11 +51,15 @@ pub mod fields;
 pub mod frames;
 pub mod hdl;
 pub mod model;
+pub mod package;
 pub mod physics;
 pub mod problem;
+pub mod proof;
 pub mod ranging;
 pub mod recording;
 pub mod reference;
 pub mod report;
 pub mod spec;
+pub mod sweep;
+pub mod synthesis;
 pub mod units;

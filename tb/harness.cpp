@@ -4,6 +4,7 @@
 //   +seed=N        seed of pauses and stops (1)
 //   +pause=P       percent of clocks without input (25)
 //   +stop=P        percent of clocks without output (25)
+//   built with --coverage: leaves coverage.dat
 //   +dump=FILE     waveform (where built with --trace-fst), from clock +dump_from=C to +dump_to=C
 // The last line is `PASS values=… clocks=…` or `FAIL mismatches=…`.
 #include <cinttypes>
@@ -21,6 +22,9 @@
 #if VM_TRACE
 #include "verilated_fst_c.h"
 #endif
+#if VM_COVERAGE
+#include "verilated_cov.h"
+#endif
 
 namespace {
 
@@ -28,6 +32,14 @@ constexpr size_t kRecords = [[ bench.records ]];
 constexpr size_t kStimulus = [[ bench.stimulus ]];
 constexpr size_t kEpochs = [[ bench.epochs ]];
 constexpr size_t kRests = [[ bench.rests ]];
+constexpr size_t kAnnouncements = [[ bench.announcements ]];
+constexpr size_t kAnnouncementLines = [[ bench.announcement_lines ]];  // of the file, which is never empty
+constexpr uint64_t kFirstAnnouncement = [[ bench.first_announcement_value ]];  // {first of a set, phase step, its phase}
+constexpr size_t kAccesses = [[ bench.accesses ]];
+[%- if bench.registers %]
+constexpr size_t kAccessLines = [[ bench.access_lines ]];
+constexpr uint32_t kFrequencyFactor = [[ bench.frequency_factor_value ]];  // after a reset
+[%- endif %]
 constexpr size_t kPixels = [[ bench.pixels ]];
 constexpr size_t kWidth = [[ bench.width ]];
 constexpr uint64_t kSilence = [[ bench.silence ]];  // longest pause inside a frame, clocks
@@ -94,6 +106,135 @@ struct Random {
   bool percent(uint64_t p) { return next() % 100 < p; }
 };
 
+[% if bench.registers -%]
+// What the core has counted since reset, as the bench knows it, before the present clock's edge.
+struct Counted {
+  uint64_t stalls = 0, saturated_pixels = 0, set_number = 0;
+};
+
+// A processor that accesses the registers, at random times, and checks every answer.
+struct Processor {
+  Vbench_taps* top;
+  const std::vector<uint64_t> accesses;  // {write, okay, counter, strobes, address}, written, read (or the factor then)
+  Random random;
+  uint64_t stop;  // percent of clocks in which no answer is taken
+  size_t due = 0, issue = 0, answer = 0;  // accesses that have begun, next one offered, next one answered
+  uint64_t a_wait = 0, w_wait = 0;
+  bool issuing = false, aw_open = false, w_open = false, ar_open = false, b_held = false, r_held = false;
+  bool aw_taken = false, w_taken = false, ar_taken = false;
+  uint64_t b_was = 0, r_was = 0, counted[16] = {};
+  uint32_t factor = kFrequencyFactor;
+
+  uint64_t head(size_t access) const { return accesses[3 * access]; }
+
+  template <class Complain>
+  void answered(bool write, uint64_t response, uint64_t data, uint64_t clocks, uint64_t& compared, const Complain& complain) {
+    if (answer >= issue || (head(answer) >> 17 & 1) != write) {
+      if (complain()) std::printf("REGISTER access=%zu clock=%" PRIu64 ": an answer that is not due\n", answer, clocks);
+      return;
+    }
+    const uint64_t h = head(answer), okay = h >> 16 & 1;
+    const uint64_t wanted = h >> 12 & 15 ? counted[answer % 16] : accesses[3 * answer + 2];
+    if ((response != (okay ? 0 : 2) || (!write && data != wanted)) && complain()) {
+      std::printf("REGISTER access=%zu write=%d address=%" PRIx64 " clock=%" PRIu64 " expected=%" PRIx64 " okay=%" PRIu64
+                  " actual=%" PRIx64 " response=%" PRIu64 "\n",
+                  answer, write, h & 255, clocks, wanted, okay, data, response);
+    }
+    compared += write ? 1 : 2;
+    answer++;
+  }
+
+  // Before the edge. True where something happened.
+  template <class Complain>
+  bool observe(const Counted& bench, uint64_t clocks, uint64_t& compared, const Complain& complain) {
+    const size_t before = issue + answer;
+    const uint64_t r = static_cast<uint64_t>(top->s_axil_rresp) << 32 | top->s_axil_rdata;
+    if (!top->rst_ni) {
+      factor = kFrequencyFactor;
+    } else {
+      if (top->s_axil_bvalid && !b_held && answer < issue) factor = static_cast<uint32_t>(accesses[3 * answer + 2]);
+      if (top->frequency_factor_o != factor && complain()) {
+        std::printf("REGISTER frequency_factor clock=%" PRIu64 " expected=%x actual=%x\n", clocks, factor,
+                    top->frequency_factor_o);
+      }
+      if (((b_held && (!top->s_axil_bvalid || top->s_axil_bresp != b_was)) ||
+           (r_held && (!top->s_axil_rvalid || r != r_was))) &&
+          complain()) {
+        std::printf("UNSTABLE clock=%" PRIu64 ": a register's answer changed while it waited\n", clocks);
+      }
+      if (top->s_axil_bvalid && top->s_axil_bready) answered(true, top->s_axil_bresp, 0, clocks, compared, complain);
+      if (top->s_axil_rvalid && top->s_axil_rready) {
+        answered(false, top->s_axil_rresp, top->s_axil_rdata, clocks, compared, complain);
+      }
+    }
+    b_held = top->rst_ni && top->s_axil_bvalid && !top->s_axil_bready;
+    b_was = top->s_axil_bresp;
+    r_held = top->rst_ni && top->s_axil_rvalid && !top->s_axil_rready;
+    r_was = r;
+    aw_taken = top->s_axil_awvalid && top->s_axil_awready;
+    w_taken = top->s_axil_wvalid && top->s_axil_wready;
+    ar_taken = top->s_axil_arvalid && top->s_axil_arready;
+    if (issuing) {
+      if (aw_taken) aw_open = false;
+      if (w_taken) w_open = false;
+      if (ar_taken) {
+        ar_open = false;
+        const uint64_t values[] = {0, top->sets_done_o, top->sets_discarded_o, bench.stalls, bench.saturated_pixels,
+                                   bench.set_number};
+        const uint64_t counter = head(issue) >> 12 & 15;
+        if (counter < sizeof values / sizeof *values) counted[issue % 16] = values[counter];
+      }
+      if (!aw_open && !w_open && !ar_open) {
+        issuing = false;
+        issue++;
+      }
+    }
+    return issue + answer != before;
+  }
+
+  // A reset: what has begun is given up.
+  void reset() {
+    issuing = aw_open = w_open = ar_open = false;
+    issue = answer = due;
+  }
+
+  // The inputs for the time after the edge.
+  void drive() {
+    bool aw_valid = top->s_axil_awvalid && !aw_taken, w_valid = top->s_axil_wvalid && !w_taken;
+    bool ar_valid = top->s_axil_arvalid && !ar_taken;
+    if (!issuing) aw_valid = w_valid = ar_valid = false;
+    // Reads may follow reads, and writes writes, before they are answered.
+    if (top->rst_ni && !issuing && issue < due && issue < answer + 8 &&
+        (issue == answer || (head(issue) >> 17) == (head(issue - 1) >> 17))) {
+      issuing = true;
+      aw_open = w_open = head(issue) >> 17 & 1;
+      ar_open = !aw_open;
+      a_wait = random.percent(50) ? random.next() % 6 : 0;
+      w_wait = random.percent(50) ? random.next() % 6 : 0;
+    } else if (issuing) {
+      if (a_wait > 0) {
+        a_wait--;
+      } else {
+        aw_valid = aw_open;
+        ar_valid = ar_open;
+      }
+      if (w_wait > 0) w_wait--;
+      else w_valid = w_open;
+    }
+    // What is not valid is anything.
+    top->s_axil_awaddr = aw_valid ? head(issue) & 255 : random.next() & 255;
+    top->s_axil_araddr = ar_valid ? head(issue) & 255 : random.next() & 255;
+    top->s_axil_wdata = w_valid ? accesses[3 * issue + 1] : random.next();
+    top->s_axil_wstrb = w_valid ? head(issue) >> 8 & 15 : random.next() & 15;
+    top->s_axil_awvalid = aw_valid;
+    top->s_axil_wvalid = w_valid;
+    top->s_axil_arvalid = ar_valid;
+    top->s_axil_bready = !random.percent(stop);
+    top->s_axil_rready = !random.percent(stop);
+  }
+};
+
+[% endif -%]
 std::string binary(uint64_t value, int bits) {
   std::string text;
   for (int bit = bits - 1; bit >= 0; bit--) text += value >> bit & 1 ? '1' : '0';
@@ -115,7 +256,8 @@ int main(int argc, char** argv) {
   Random random{plusarg(argc, argv, "seed", 1) * UINT64_C(0x9E3779B97F4A7C15) + 1};
 
   const std::vector<uint64_t> stimulus = read_hex("stimulus", kStimulus);
-  const std::vector<uint64_t> epoch_end = read_hex("epochs", kEpochs);
+  const std::vector<uint64_t> epoch_end = read_hex("epochs", 2 * kEpochs);  // results and announcements due
+  const std::vector<uint64_t> announcements = read_hex("announcements", kAnnouncementLines);
   const std::vector<uint64_t> rests = read_hex("rests", 3 * kRests);  // results due, sets done, sets discarded
   std::vector<std::vector<uint64_t>> expected;
   for (const char* name : kVectors) expected.push_back(read_hex(name, kRecords));
@@ -141,6 +283,15 @@ int main(int argc, char** argv) {
   uint64_t first_clock[kStages] = {};
   bool resetting = true, resting = false, exact = false, stopped = false, held_valid = false;
   std::vector<uint32_t> held, shown;
+  size_t announcement = 0, saturated_vector = 0, due = 0, answer = 0;
+  uint64_t announced = kFirstAnnouncement, saturated_pixels = 0, set_number = 0;
+  while (std::strcmp(kVectors[saturated_vector], "saturated") != 0) saturated_vector++;
+[%- if bench.registers %]
+  // A source of its own: the stream's traffic stays what it is without accesses.
+  Processor processor{top.get(), read_hex("accesses", 3 * kAccessLines), Random{random.state ^ 0x5bd1e995}, stop};
+  top->s_axil_awvalid = top->s_axil_wvalid = top->s_axil_arvalid = 0;
+  top->s_axil_bready = top->s_axil_rready = 0;
+[%- endif %]
 
   auto complain = [&]() { return ++mismatches <= kLimit; };
 
@@ -156,9 +307,32 @@ int main(int argc, char** argv) {
 #endif
     clocks++;
     idle++;
+[%- if bench.registers %]
+    if (processor.observe(Counted{stalls, saturated_pixels, set_number}, clocks, compared, complain)) idle = 0;
+    due = processor.due;
+    answer = processor.answer;
+[%- endif %]
+    if (!top->rst_ni) {
+      announced = kFirstAnnouncement;
+    } else {
+      if (top->next_frame_strobe_o) {
+        idle = 0;
+        if (announcement >= epoch_end[2 * epoch + 1]) {
+          if (complain()) std::printf("SEQUENCER announcement=%zu clock=%" PRIu64 ": it is not due\n", announcement, clocks);
+        } else {
+          announced = announcements[announcement++];
+          compared++;
+        }
+      }
+      if (top->next_frame_o != announced && complain()) {
+        std::printf("SEQUENCER announcement=%zu clock=%" PRIu64 " {first, step, phase} expected=%s actual=%s\n",
+                    announcement - 1, clocks, binary(announced, [[ bench.announcement_bits ]]).c_str(),
+                    binary(top->next_frame_o, [[ bench.announcement_bits ]]).c_str());
+      }
+    }
     const bool taken = top->s_axis_tvalid && top->s_axis_tready;
     if (taken) idle = 0;
-    if (!top->rst_ni) stalls = 0;
+    if (!top->rst_ni) stalls = saturated_pixels = set_number = 0;
     else if (top->s_axis_tvalid && !taken) stalls++, all_stalls++;
 
     shown.assign(1, top->m_axis_tvalid | top->m_axis_tuser << 1 | top->m_axis_tlast << 2);
@@ -175,7 +349,7 @@ int main(int argc, char** argv) {
       idle = 0;
       const size_t r = record[stage];
       if (first_clock[stage] == 0) first_clock[stage] = clocks;
-      if (r >= epoch_end[epoch]) {
+      if (r >= epoch_end[2 * epoch]) {
         if (complain()) std::printf("SURPLUS stage=%d record=%zu clock=%" PRIu64 "\n", stage, r, clocks);
       } else {
         auto check = [&](const char* name, int bits, uint64_t wanted, uint64_t found) {
@@ -195,12 +369,15 @@ int main(int argc, char** argv) {
         if (stage == kStages - 1) {
           check("output.first", 1, r % kPixels == 0, top->m_axis_tuser);
           check("output.last", 1, r % kPixels % kWidth == kWidth - 1, top->m_axis_tlast);
+          saturated_pixels += expected[saturated_vector][r];
+          set_number += r % kPixels == 0;
+          if (top->padding_o) check("output.padding", 1, 0, 1);
         }
       }
       record[stage]++;
     }
 
-    if (resting && idle > kSilence + 64 && record[kStages - 1] >= rests[3 * rest]) {
+    if (resting && answer == due && idle > kSilence + 64 && record[kStages - 1] >= rests[3 * rest]) {
       resting = false;
       if ((top->sets_done_o != rests[3 * rest + 1] || top->sets_discarded_o != rests[3 * rest + 2] ||
            top->stall_clocks_o != stalls) &&
@@ -213,7 +390,7 @@ int main(int argc, char** argv) {
       compared += 3;
       rest++;
     }
-    if ((word == kStimulus && wait_for == 0 && !resting) || idle > kPatience || mismatches > kLimit) break;
+    if ((word == kStimulus && wait_for == 0 && !resting && answer == due) || idle > kPatience || mismatches > kLimit) break;
 
     // The inputs for the time after the edge, decided from what was seen before it.
     bool valid = top->s_axis_tvalid && !taken, reset_n = top->rst_ni;
@@ -234,16 +411,26 @@ int main(int argc, char** argv) {
         exact = true;
       } else if (next >> 16 == 0xa) {  // reset: what is still under way is lost
         word++;
-        wait_for = 4;
+        wait_for = 1 + random.next() % 4;
         resetting = true;
         reset_n = false;
         for (int stage = 0; stage < kStages; stage++) {
-          if (record[stage] > epoch_end[epoch] && complain()) {
+          if (record[stage] > epoch_end[2 * epoch] && complain()) {
             std::printf("SURPLUS stage=%d record=%zu clock=%" PRIu64 "\n", stage, record[stage], clocks);
           }
-          record[stage] = epoch_end[epoch];
+          record[stage] = epoch_end[2 * epoch];
         }
+        if (announcement > epoch_end[2 * epoch + 1] && complain()) {
+          std::printf("SEQUENCER announcement=%zu clock=%" PRIu64 ": it is not due\n", announcement, clocks);
+        }
+        announcement = epoch_end[2 * epoch + 1];
         epoch++;
+[%- if bench.registers %]
+        processor.reset();
+      } else if (next >> 16 == 0xc) {  // the next access to a register begins
+        word++;
+        processor.due++;
+[%- endif %]
       } else if (next >> 16 == 0xb) {  // rest: everything comes out
         word++;
         resting = true;
@@ -269,6 +456,9 @@ int main(int argc, char** argv) {
 #if VM_TRACE
     if (trace && clocks > dump_from && clocks <= dump_to) trace->dump(clocks * 10 - 5);
 #endif
+[%- if bench.registers %]
+    processor.drive();
+[%- endif %]
     top->rst_ni = reset_n;
     top->s_axis_tvalid = valid;
     top->m_axis_tready = !stopped;
@@ -282,11 +472,22 @@ int main(int argc, char** argv) {
   if (trace) trace->close();
 #endif
   top->final();
+#if VM_COVERAGE
+  context->coveragep()->write("coverage.dat");
+#endif
 
   for (int stage = 0; stage < kStages; stage++) {
     if (record[stage] >= kRecords) continue;
     mismatches++;
     std::printf("MISSING stage=%d record=%zu of %zu clock=%" PRIu64 "\n", stage, record[stage], kRecords, clocks);
+  }
+  if (announcement != kAnnouncements) {
+    mismatches++;
+    std::printf("SEQUENCER announcement=%zu of %zu clock=%" PRIu64 ": it is missing\n", announcement, kAnnouncements, clocks);
+  }
+  if (answer != due) {
+    mismatches++;
+    std::printf("REGISTER access=%zu of %zu clock=%" PRIu64 ": no answer\n", answer, kAccesses, clocks);
   }
   if (word != kStimulus) {
     mismatches++;

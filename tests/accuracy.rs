@@ -21,7 +21,7 @@ fn phase_error(oracle: &mut Oracle, pipeline: &Pipeline, in_phase: i64, quadratu
     let bits = pipeline.output.phase_bits;
     let record = pixel(pipeline, sums(in_phase, quadrature));
     assert!(record.valid);
-    let exact = oracle.phase_codes(pipeline.modulation.scheme.name, in_phase, quadrature, bits);
+    let exact = oracle.phase_codes(&pipeline.modulation.scheme.name, in_phase, quadrature, bits);
     circular_difference(record.phase, exact, f64::from(bits).exp2())
 }
 
@@ -46,7 +46,7 @@ fn a_presets_phase_error_is_below_its_promise_at_every_amplitude() {
     let mut oracle = Oracle::new();
     for preset in PRESETS {
         let pipeline = Pipeline::named(preset.name).unwrap();
-        let scheme = pipeline.modulation.scheme;
+        let scheme = &pipeline.modulation.scheme;
         let mrad = 1e3 * TAU / f64::from(pipeline.output.phase_bits).exp2();
         for amplitude in [20.0, 35.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 2047.5] {
             let count = 1200;
@@ -55,11 +55,9 @@ fn a_presets_phase_error_is_below_its_promise_at_every_amplitude() {
                 // The golden ratio's fractions cover the circle evenly for any count.
                 let phase = TAU * (f64::from(k) * 0.618_033_988_749_895).fract();
                 let frames: Vec<i64> = (0..scheme.steps())
-                    .map(|n| {
-                        (amplitude * (n as f64 * scheme.step_rad() - phase).cos() + 2047.5).round() as i64
-                    })
+                    .map(|n| (amplitude * (scheme.angle_rad(n) - phase).cos() + 2047.5).round() as i64)
                     .collect();
-                let (in_phase, quadrature) = paper_sums(scheme.name, &frames);
+                let (in_phase, quadrature) = paper_sums(&scheme.name, &frames);
                 let error = phase_error(&mut oracle, &pipeline, in_phase, quadrature) * mrad;
                 sum += error;
                 squares += error * error;
@@ -83,7 +81,7 @@ fn small(scheme: &str, cordic: Cordic, phase_bits: u32) -> Pipeline {
         .unwrap()
         .adapted("small", |specification| {
             specification.sensor.adc_bits = 8;
-            specification.modulation.scheme = vuris::spec::scheme(scheme).unwrap();
+            specification.modulation.scheme = vuris::spec::scheme(scheme).unwrap().clone();
             specification.cordic = cordic;
             specification.output.phase_bits = phase_bits;
             specification.output.distance_unit_m = 1e-2;
@@ -145,8 +143,8 @@ fn corners(pipeline: &Pipeline) -> Vec<(i64, i64)> {
         values.retain(|&value| value <= high);
         values.iter().flat_map(|&value| [value, -value]).collect::<Vec<_>>()
     };
-    let quadratures = values(derived.quadrature, pipeline.modulation.scheme.quadrature);
-    values(derived.in_phase, pipeline.modulation.scheme.in_phase)
+    let quadratures = values(derived.quadrature, &pipeline.modulation.scheme.quadrature);
+    values(derived.in_phase, &pipeline.modulation.scheme.in_phase)
         .into_iter()
         .flat_map(|i| quadratures.iter().map(move |&q| (i, q)))
         .filter(|&vector| vector != (0, 0))
@@ -215,13 +213,13 @@ fn random_vectors_of_every_strength_are_within_the_budget() {
     let mut oracle = Oracle::new();
     for pipeline in varied() {
         let (derived, budget) = (pipeline.derived(), pipeline.budget());
-        let scheme = pipeline.modulation.scheme;
+        let scheme = &pipeline.modulation.scheme;
         let units = f64::from(pipeline.output.amplitude_fraction_bits).exp2();
         let scale = derived.sample.max() * pipeline.modulation.frames_per_step as i64;
         let limit = |weights: &[i64]| weights.iter().filter(|&&w| w > 0).sum::<i64>() * scale;
         let strategy = (
-            -limit(scheme.in_phase)..=limit(scheme.in_phase),
-            -limit(scheme.quadrature)..=limit(scheme.quadrature),
+            -limit(&scheme.in_phase)..=limit(&scheme.in_phase),
+            -limit(&scheme.quadrature)..=limit(&scheme.quadrature),
             0..derived.in_phase.bits,
         );
         TestRunner::new(Config { cases: 1000, failure_persistence: None, ..Config::default() })
@@ -233,19 +231,19 @@ fn random_vectors_of_every_strength_are_within_the_budget() {
                 let error = phase_error(&mut Oracle::new(), &pipeline, i, q).abs();
                 assert!(error <= budget.phase_codes(), "({i}, {q}): {error} codes");
                 let record = pixel(&pipeline, sums(i, q));
-                let gain = (scheme.gain * pipeline.modulation.frames_per_step as i64) as f64;
+                let gain = scheme.gain * pipeline.modulation.frames_per_step as f64;
                 if !pipeline.output.amplitude {
                     assert_eq!(record.amplitude, 0);
                     return Ok(());
                 }
-                let amplitude = Oracle::new().length(scheme.name, i, q) / gain * units;
+                let amplitude = Oracle::new().length(&scheme.name, i, q) / gain * units;
                 let error = (record.amplitude as f64 - amplitude).abs();
                 assert!(error <= budget.amplitude_codes(amplitude), "({i}, {q}): {error} codes of amplitude");
                 Ok(())
             })
             .unwrap();
         // The corner of all corners.
-        let (i, q) = (limit(scheme.in_phase), -limit(scheme.quadrature));
+        let (i, q) = (limit(&scheme.in_phase), -limit(&scheme.quadrature));
         assert!(phase_error(&mut oracle, &pipeline, i, q).abs() <= budget.phase_codes());
     }
 }

@@ -48,7 +48,7 @@ fn number_after(text: &str, before: &str) -> f64 {
 
 #[test]
 fn help_names_every_command_and_every_option() {
-    let commands: [(&str, &[&str]); 6] = [
+    let commands: [(&str, &[&str]); 8] = [
         ("generate", &["--spec <FILE|PRESET>", "--out <DIR>", "--check", "default: generated"]),
         (
             "verify",
@@ -75,7 +75,55 @@ fn help_names_every_command_and_every_option() {
         ),
         ("explain", &["--spec <FILE|PRESET>", "--toml", "vuris-four-frame"]),
         ("scene", &["--out <DIR>", "--seed <SEED>"]),
+        (
+            "sweep",
+            &[
+                "--spec <FILE|PRESET>",
+                "--word <LIST>",
+                "--metric <1|3>",
+                "--phase-bits <LIST>",
+                "--iterations <LIST>",
+                "--vector-guard-bits <LIST>",
+                "--angle-guard-bits <LIST>",
+                "--cycles-per-pixel <LIST>",
+                "--normaliser <NORMALISER>",
+                "--rounding <ROUNDING>",
+                "--frequency-hz <HZ>",
+                "--samples <N>",
+                "--exhaustive",
+                "--synthesise",
+                "--out <DIR>",
+                "--shard <I/N>",
+                "--merge",
+                "--fit-area <FILE>",
+                "--recommend",
+                "--error <ERROR>",
+                "--proved",
+                "--add-noise <SHARE>",
+                "--amplitude-dn <DN>",
+                "--offset-dn <DN>",
+                "--gain-e-per-dn <E>",
+                "--read-noise-e <E>",
+            ],
+        ),
         ("demo", &["--out <DIR>", "--campaign <DIR>", "default: target/demo"]),
+        (
+            "synth",
+            &[
+                "--out <DIR>",
+                "--target <NAME>",
+                "--family <FAMILY>",
+                "ecp5",
+                "ice40",
+                "--seeds <N>",
+                "--jobs <N>",
+                "--accept",
+                "--check",
+                "--spec <FILE|PRESET>",
+                "--top <MODULE>",
+                "--clock <PORT>",
+            ],
+        ),
     ];
     let home = home();
     let overview = run(home.path(), &["--help"]);

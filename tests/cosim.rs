@@ -219,7 +219,9 @@ fn sets_of_256_frames_a_step_agree_in_both_simulators() {
         let golden = Golden::new(&pipeline, &Scenario { segments });
         for simulator in Simulator::ALL {
             let outcomes = agree(preset.name, &pipeline, &golden, simulator, &[Traffic::default()]);
-            assert_eq!(outcomes[0].values as usize, 9 * 8 * VALUES_A_PIXEL + VALUES_A_REST);
+            // Each frame that begins calls for the next.
+            let announcements = 9 * 256 * pipeline.modulation.scheme.steps();
+            assert_eq!(outcomes[0].values as usize, 9 * 8 * VALUES_A_PIXEL + VALUES_A_REST + announcements);
         }
     }
 }
@@ -408,8 +410,8 @@ const TIMINGS: &[Timing] = &[
 
 /// The clocks of a straight run, by hand. In reset for clocks 1 to 4, offered in 5, in the input's register in 6, the set's
 /// first sample is taken in clock 7, its last in clock 6 + samples. Then silence: the first clock beyond the longest pause
-/// commits the set. In the next clock the first pixel's sums are read; they stand at the memory's output in the clock
-/// after, from which the latency counts. The bench ends a set's silence and 65 clocks after the last result.
+/// commits the set. In the next clock the first pixel's word is read; it stands at the memory's output in the clock
+/// after, and its sums in the one after that, from which the latency counts. The bench ends a set's silence and 65 clocks after the last result.
 #[test]
 fn latency_throughput_and_the_silence_that_ends_a_set_are_those_of_the_specification() {
     two_at_a_time(TIMINGS, |timing| {
@@ -425,7 +427,7 @@ fn latency_throughput_and_the_silence_that_ends_a_set_are_those_of_the_specifica
         let outcome = &agree(preset, &pipeline, &golden, Simulator::Verilator, &[STRAIGHT])[0];
         let (first_sums, first_output) = (outcome.first_clocks[0], outcome.first_clocks[3]);
         println!("{preset}: sums in clock {first_sums}, output in clock {first_output}");
-        assert_eq!(first_sums, 6 + samples + silence + 1 + 2);
+        assert_eq!(first_sums, 6 + samples + silence + 1 + 3);
         assert_eq!(first_output - first_sums, latency, "latency of {}", pipeline.to_toml());
         assert_eq!(outcome.clocks - silence - 65 - first_output, span, "span of {}", pipeline.to_toml());
         // What is derived counts no shift where shifting takes a clock a place.
@@ -498,7 +500,13 @@ fn every_broken_set_is_discarded_and_counted_and_the_next_one_comes_out() {
         assert_eq!(golden.counters, (37, 18));
         for simulator in Simulator::ALL {
             let outcomes = agree(preset.name, &pipeline, &golden, simulator, &[Traffic::default()]);
-            assert_eq!(outcomes[0].values as usize, 37 * 108 * VALUES_A_PIXEL + 19 * VALUES_A_REST);
+            // Each frame that begins calls for the next: all of the 36 good sets and of 3 broken ones (last frame short, long, and one too
+            // many), all but one of that without its last, 2 in the 4 whose fault is within the second, 1 in 6, none in 4. And each
+            // of the 18 that are discarded calls for a new set, but for the 2 that a start of set breaks off.
+            let frames = pipeline.derived().frames_per_set;
+            let begun = 36 * frames + 3 * frames + (frames - 1) + 4 * 2 + 6;
+            let values = 37 * 108 * VALUES_A_PIXEL + 19 * VALUES_A_REST + begun + (18 - 2);
+            assert_eq!(outcomes[0].values as usize, values);
         }
     }
 }
@@ -525,7 +533,7 @@ fn a_reset_really_interrupts_the_drain_that_it_means_to_interrupt() {
         assert!(name.starts_with("reset while a set drains"), "{name}");
         let golden = Golden::new(&pipeline, &Scenario { segments: pair });
         // Both sets are due: the one before the reset, and the good one after it.
-        assert_eq!(golden.epochs, [108, 216]);
+        assert_eq!(golden.epochs.iter().map(|epoch| epoch.records).collect::<Vec<_>>(), [108, 216]);
         let shift = |pixel: usize| {
             let sums = golden.records[pixel].sums;
             turn(&pipeline.derived().angle, sums.in_phase, sums.quadrature).shift
@@ -537,19 +545,22 @@ fn a_reset_really_interrupts_the_drain_that_it_means_to_interrupt() {
         assert_eq!(values[0], values[1]);
         (values[0], [0, 1, 2].map(shift))
     };
-    // A silence of 8 clocks more than a pause commits with its first; the first sums come out 2 clocks later, and the reset
-    // leaves 5: the sums of 5 pixels.
-    assert_eq!(interrupted("vuris-fast", 2).0, 5 * 4);
+    // Each of 5 frames before the reset and after it calls for the next; so does, half way, the first of another set.
+    let (start, half_way) = (10, 11);
+    // A silence of 8 clocks more than a pause commits with its first; the first sums come out 3 clocks later, and the reset
+    // leaves 4: the sums of 4 pixels.
+    assert_eq!(interrupted("vuris-fast", 2).0, 4 * 4 + start);
     // One iteration a clock: the second pixel's sums are taken when the first one's turn begins, the third's only when it is over.
     let (values, shifts) = interrupted("vuris", 2);
-    assert!(shifts[0] <= 3, "the first pixel is shifted by {shifts:?}");
-    assert_eq!(values, 2 * 4);
-    // Since the first sums came out, half a frame of the next set has been taken, and the reset comes with its last: sums of
-    // 53 pixels, phases 40, results 42 and outputs 43 clocks behind.
-    assert_eq!(interrupted("vuris-fast", 4).0, 53 * 4 + 13 + 11 * 4 + 10 * 8);
+    assert!(shifts[0] <= 2, "the first pixel is shifted by {shifts:?}");
+    assert_eq!(values, 2 * 4 + start);
+    // The next set's sample k follows the reading of pixel k's sums by a clock, and those come out 2 clocks after they are read.
+    // The input's register is two samples ahead of the first; the reset comes with sample 53: sums of 52 pixels, phases 40,
+    // results 42 and outputs 43 clocks behind.
+    assert_eq!(interrupted("vuris-fast", 4).0, 52 * 4 + 12 + 10 * 4 + 9 * 8 + half_way);
     // One iteration a clock: when a pixel's sums are taken, the one's before it start to turn, and the one's before that leave and
-    // are a phase in the next clock. One clock after the sums of pixel 50 are taken, those of pixel 51 have been read, and the
-    // next set's sample 51 is taken; one more, and the input's register takes sample 53, the last, of which the reset follows
-    // at once: sums of pixels 0 to 50, phases of 0 to 48, and the results of pixel 48 would come in the next clock.
-    assert_eq!(interrupted("vuris", 4).0, 51 * 4 + 49 + 48 * 4 + 48 * 8);
+    // are a phase in the next clock. When the sums of pixel 49 are taken, those of pixel 51 are read; a clock later the next
+    // set's sample 51 is taken; one more, and the input's register takes sample 53, the last, which the reset follows
+    // at once: sums of pixels 0 to 49, phases of 0 to 47, and the results of pixel 47 would come in the next clock.
+    assert_eq!(interrupted("vuris", 4).0, 50 * 4 + 48 + 47 * 4 + 47 * 8 + half_way);
 }

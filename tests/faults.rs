@@ -40,7 +40,7 @@ const PRESET_FAULTS: &[Faults] = &[
     (
         "framing",
         &[
-            Fault("one step too few", "LAST_STEP[STEP_BITS-1:0]", "LAST_STEP[STEP_BITS-1:0] - 1'b1"),
+            Fault("one step too few", "LAST_PLACE[PLACE_BITS-1:0]", "LAST_PLACE[PLACE_BITS-1:0] - 1'b1"),
             Fault("one line too few", "LAST_ROW[ROW_BITS-1:0]", "LAST_ROW[ROW_BITS-1:0] - 1'b1"),
             Fault("silence ends no set", "commit_by_frame || commit_by_pause", "commit_by_frame"),
             Fault(
@@ -71,6 +71,24 @@ const PRESET_FAULTS: &[Faults] = &[
             Fault("second frame overtakes the drain", "behind = first_frame && ", "behind = "),
             Fault("state survives a reset", "state_q          <= LOST;\n      silence_q", "silence_q"),
             Fault("counter survives a reset", "      sets_discarded_q <= 32'd0;\n", ""),
+            Fault(
+                "frame out of place calls for the next",
+                "take && start_of_frame_i;",
+                "accept && start_of_frame_i;",
+            ),
+            Fault("lost set calls for nothing", "lost_o           = fault", "lost_o           = 1'b0"),
+        ],
+    ),
+    (
+        "sequencer",
+        &[
+            Fault("step of the next frame", "step_at(place_i)", "step_at(next_place_i)"),
+            Fault("lost set is told without a strobe", "<= frame_i || lost_i;", "<= frame_i;"),
+            Fault("lost set does not call for a first frame", "<= lost_i || next_first_i", "<= next_first_i"),
+            Fault("lost set goes on", "lost_i ? {STEP_BITS{1'b0}} : next_place_i", "next_place_i"),
+            Fault("told what was told before", "if (frame_i || lost_i) begin", "if (next_strobe_q) begin"),
+            Fault("phase cut off instead of rounded", "16'd43691", "16'd43690"),
+            Fault("what is told survives a reset", "      next_first_q  <= 1'b1;\n", ""),
         ],
     ),
     (
@@ -196,6 +214,46 @@ const PRESET_FAULTS: &[Faults] = &[
             Fault("amplitude cut off instead of rounded", "shifted[0]}", "1'b0}"),
         ],
     ),
+    (
+        "registers",
+        &[
+            Fault("a constant off by 1", "= 32'h0000000c;  // width", "= 32'h0000000d;  // width"),
+            Fault("two counters exchanged", "= sets_done_i;", "= sets_discarded_i;"),
+            Fault("counter of another clock", "= stall_clocks_i;", "= stall_clocks_i + 32'd1;"),
+            Fault("every result is saturated", "delivered_i && delivered_saturated_i", "delivered_i"),
+            Fault(
+                "saturated pixel counted while it waits",
+                "delivered_i && delivered_saturated_i",
+                "delivered_saturated_i",
+            ),
+            Fault("set counted while it waits", "delivered_i && delivered_first_i", "delivered_first_i"),
+            Fault("missing register is there", "4'd13: read_known_d = 1'b0;", ""),
+            Fault("register beyond the map", "read_block && read_known_d", "read_known_d"),
+            Fault(
+                "registers repeat beyond the map",
+                "read_block ? read_constant_d | read_variable_d : 32'd0",
+                "read_constant_d | read_variable_d",
+            ),
+            Fault("write to what is only read succeeds", "write_okay ? OKAY : SLVERR", "OKAY"),
+            Fault("any register is the one", "write && write_frequency_factor", "write"),
+            Fault("bytes not looked at", "if (w_strobes_q[2]) frequency", "frequency"),
+            Fault("two bytes exchanged", "[15:8] <= w_data_q[15:8]", "[15:8] <= w_data_q[23:16]"),
+            Fault("write without its data", "aw_valid_q && w_valid_q &&", "aw_valid_q &&"),
+            Fault("write without its address", "aw_valid_q && w_valid_q &&", "w_valid_q &&"),
+            Fault("answer lost", " && (!b_valid_q || bready_i)", ""),
+            Fault("write's answer withdrawn", "else if (bready_i)", "else"),
+            Fault("read's answer withdrawn", "else if (rready_i)", "else"),
+            Fault("read's answer changes", "if (!r_valid_q) begin", "begin"),
+            Fault("address taken that is not offered any more", "if (!aw_valid_q) aw_word_q", "aw_word_q"),
+            Fault("data taken that are not offered any more", "if (!w_valid_q) begin", "begin"),
+            Fault("read taken while there is no room", "arready_o = !r_valid_q", "arready_o = 1'b1"),
+            Fault("setting survives a reset", "<= 32'h0000001e;", "<= frequency_factor_q;"),
+            Fault("count survives a reset", "      saturated_pixels_q <= 32'd0;\n", ""),
+            Fault("answer survives a reset", "      b_valid_q          <= 1'b0;\n", ""),
+            Fault("read survives a reset", "      r_valid_q          <= 1'b0;\n", ""),
+            Fault("half a write survives a reset", "      aw_valid_q         <= 1'b0;\n", ""),
+        ],
+    ),
     ("offset", &[Fault("factor one too large", "33'd233017", "33'd233018")]),
     ("distance", &[Fault("factor one too large", "40'd3997233", "40'd3997234")]),
     (
@@ -205,12 +263,13 @@ const PRESET_FAULTS: &[Faults] = &[
             Fault("code beyond full scale wraps", " | {12{above_range}}", ""),
             Fault("free clock counted as stalled", "s_axis_tvalid && !s_axis_tready", "!s_axis_tready"),
             Fault("pipeline does not wait", "advance = !result_valid || result_ready", "advance = 1'b1"),
+            Fault("another flag counted as saturated", "(m_axis_tdata[81])", "(m_axis_tdata[80])"),
             Fault("flags a clock early", ".CLOCKS(2)\n  ) u_polar_delay", ".CLOCKS(1)\n  ) u_polar_delay"),
         ],
     ),
 ];
 
-/// Faults of what the preset has no use for: several frames a step, and a least amplitude.
+/// Faults of what the preset has no use for: several frames a step, another order of the steps, and a least amplitude.
 const FOUR_FRAME_FAULTS: &[Faults] = &[
     (
         "framing",
@@ -221,6 +280,20 @@ const FOUR_FRAME_FAULTS: &[Faults] = &[
                 "LAST_REPEAT[REPEAT_BITS-1:0] - 1'b1",
             ),
             Fault("each frame of the first step is first", " && repetition == {REPEAT_BITS{1'b0}};", ";"),
+            Fault(
+                "each frame of the last step calls for a first",
+                "= last_repeat && last_place;",
+                "= last_place;",
+            ),
+            Fault("each frame calls for the next step", "!last_repeat ? place : last_place", "last_place"),
+        ],
+    ),
+    (
+        "sequencer",
+        &[
+            Fault("two steps of the order exchanged", "2'd0: step_at = 2'd2", "2'd0: step_at = 2'd3"),
+            Fault("order begins with step 0", "next_step_q   <= 2'd2", "next_step_q   <= 2'd0"),
+            Fault("phase of the place", "phase_of(step)", "phase_of(next_place_i)"),
         ],
     ),
     ("pipeline", &[Fault("least amplitude is too weak", "amplitude >= 16'd8", "amplitude > 16'd8")]),
@@ -230,6 +303,7 @@ const FOUR_FRAME_FAULTS: &[Faults] = &[
 fn four_frame() -> Pipeline {
     small("vuris-four-frame", |specification| {
         specification.modulation.frames_per_step = 2;
+        specification.modulation.order = Some(vec![2, 0, 3, 1]);
         specification.output.minimum_amplitude_dn = 0.5;
     })
 }

@@ -151,7 +151,13 @@ fn a_missing_folder_is_found_and_written() {
     fs::remove_dir_all(home.path().join("out/tb")).unwrap();
     assert_found_and_repaired(
         home.path(),
-        &["missing tb/bench_taps.v", "missing tb/harness.cpp", "missing tb/testbench.v"],
+        &[
+            "missing tb/bench_taps.v",
+            "missing tb/harness.cpp",
+            "missing tb/icarus.f",
+            "missing tb/testbench.v",
+            "missing tb/verilator.f",
+        ],
     );
 }
 

@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The phase pipeline of a 160 x 120 time-of-flight camera: raw frames in, phase, amplitude, offset and distance out,
 // one pixel a clock. Scheme wdft, 5 raw frames a set; the set's results come out in pixel order once its last
-// frame has arrived whole, 34 clocks after its sums leave the memory. It does not calibrate, filter or unwrap.
+// frame has arrived whole, 26 clocks after its sums leave the memory. It does not calibrate, filter or unwrap.
 //
 //   m_axis_tdata bits | field
 //    17:0   | phase, turns / 2^18
@@ -31,7 +31,29 @@ module vuris_pipeline (
   output wire        m_axis_tuser,      // first pixel of a result frame
   output wire [31:0] sets_done_o,       // complete sets since reset
   output wire [31:0] sets_discarded_o,  // sets discarded since reset: a frame missing, too short or too long
-  output wire [31:0] stall_clocks_o     // clocks since reset in which an offered sample was not taken
+  output wire [31:0] stall_clocks_o,    // clocks since reset in which an offered sample was not taken
+  input  wire        s_axil_awvalid,    // a write's address is offered
+  output wire        s_axil_awready,    // it is taken
+  input  wire [7:0]  s_axil_awaddr,     // byte address, see vuris_registers
+  input  wire        s_axil_wvalid,     // a write's data are offered
+  output wire        s_axil_wready,     // they are taken
+  input  wire [31:0] s_axil_wdata,      // the data
+  input  wire [3:0]  s_axil_wstrb,      // which bytes of them are written
+  output wire        s_axil_bvalid,     // a write's answer is offered
+  input  wire        s_axil_bready,     // it is taken
+  output wire [1:0]  s_axil_bresp,      // OKAY or SLVERR
+  input  wire        s_axil_arvalid,    // a read's address is offered
+  output wire        s_axil_arready,    // it is taken
+  input  wire [7:0]  s_axil_araddr,     // byte address
+  output wire        s_axil_rvalid,     // a read's answer is offered
+  input  wire        s_axil_rready,     // it is taken
+  output wire [31:0] s_axil_rdata,      // the data
+  output wire [1:0]  s_axil_rresp,      // OKAY or SLVERR
+  output wire [31:0] frequency_factor_o,  // to the modulation hardware: what the register holds
+  output wire        next_frame_strobe_o,  // to the modulation hardware: for a clock, what follows is new
+  output wire        next_frame_first_o,   // the next raw frame is a set's first: its first pixel carries the start of set
+  output wire [2:0]  next_frame_step_o,    // phase step that the next raw frame must have
+  output wire [15:0] next_frame_phase_o    // that step, turns / 2^16
 );
 
   // A sensor that cannot wait loses samples where this counts.
@@ -73,6 +95,11 @@ module vuris_pipeline (
   wire first_frame;
   wire [11:0] sample;
   wire [14:0] address;
+  wire frame;
+  wire lost;
+  wire next_first;
+  wire [2:0] place;
+  wire [2:0] next_place;
   wire [2:0] step;
 
   vuris_framing u_framing (
@@ -90,13 +117,62 @@ module vuris_pipeline (
     .take_o          (take),
     .sample_o        (sample),
     .address_o       (address),
-    .step_o          (step),
+    .place_o         (place),
+    .frame_o         (frame),
+    .lost_o          (lost),
+    .next_place_o    (next_place),
+    .next_first_o    (next_first),
     .first_frame_o   (first_frame),
     .sets_done_o     (sets_done_o),
     .sets_discarded_o(sets_discarded_o)
   );
 
-  // From here on the pipeline moves as one, unless its last word waits.
+  vuris_sequencer u_sequencer (
+    .clk_i        (clk_i),
+    .rst_ni       (rst_ni),
+    .frame_i      (frame),
+    .lost_i       (lost),
+    .place_i      (place),
+    .next_place_i (next_place),
+    .next_first_i (next_first),
+    .step_o       (step),
+    .next_strobe_o(next_frame_strobe_o),
+    .next_first_o (next_frame_first_o),
+    .next_step_o  (next_frame_step_o),
+    .next_phase_o (next_frame_phase_o)
+  );
+
+  vuris_registers u_registers (
+    .clk_i                (clk_i),
+    .rst_ni               (rst_ni),
+    .awvalid_i            (s_axil_awvalid),
+    .awready_o            (s_axil_awready),
+    .awaddr_i             (s_axil_awaddr),
+    .wvalid_i             (s_axil_wvalid),
+    .wready_o             (s_axil_wready),
+    .wdata_i              (s_axil_wdata),
+    .wstrb_i              (s_axil_wstrb),
+    .bvalid_o             (s_axil_bvalid),
+    .bready_i             (s_axil_bready),
+    .bresp_o              (s_axil_bresp),
+    .arvalid_i            (s_axil_arvalid),
+    .arready_o            (s_axil_arready),
+    .araddr_i             (s_axil_araddr),
+    .rvalid_o             (s_axil_rvalid),
+    .rready_i             (s_axil_rready),
+    .rdata_o              (s_axil_rdata),
+    .rresp_o              (s_axil_rresp),
+    .frequency_factor_o   (frequency_factor_o),
+    .sets_done_i          (sets_done_o),
+    .sets_discarded_i     (sets_discarded_o),
+    .stall_clocks_i       (stall_clocks_o),
+    .delivered_i          (m_axis_tvalid && m_axis_tready),
+    .delivered_first_i    (m_axis_tuser),
+    .delivered_saturated_i(m_axis_tdata[81])
+  );
+
+  // The angle unit takes sums when it can; what comes after it moves as one, unless the last word waits.
+  wire sums_taken;
   wire advance;
 
   wire sums_valid;
@@ -118,7 +194,7 @@ module vuris_pipeline (
     .drain_start_i  (drain_start),
     .drain_busy_o   (drain_busy),
     .drain_address_o(drain_address),
-    .advance_i      (advance),
+    .advance_i      (sums_taken),
     .valid_o        (sums_valid),
     .first_o        (sums_first),
     .last_o         (sums_last),
@@ -128,157 +204,84 @@ module vuris_pipeline (
     .saturated_o    (sums_saturated)
   );
 
-  wire vector_valid;
-  wire signed [25:0] vector_x;
-  wire signed [24:0] vector_y;
-  wire [18:0] vector_meta;
+  wire angle_ready;
+  wire angle_valid;
+  wire angle_zero;
+  wire angle_first;
+  wire angle_last;
+  wire angle_saturated;
+  wire [17:0] angle_phase;
+  wire [23:0] angle_length;
+  wire [3:0] angle_shift;
+  wire [15:0] angle_offset;
 
-  vuris_scaling u_scaling (
-    .clk_i       (clk_i),
-    .rst_ni      (rst_ni),
-    .advance_i   (advance),
-    .valid_i     (sums_valid),
-    .in_phase_i  (sums_in_phase),
-    .quadrature_i(sums_quadrature),
-    .meta_i      ({sums_first, sums_last, sums_saturated, sums_offset}),
-    .valid_o     (vector_valid),
-    .x_o         (vector_x),
-    .y_o         (vector_y),
-    .meta_o      (vector_meta)
+  assign sums_taken = !sums_valid || angle_ready;
+
+  vuris_angle u_angle (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (sums_valid),
+    .ready_o (angle_ready),
+    .x_i     (sums_in_phase),
+    .y_i     (sums_quadrature),
+    .meta_i  ({sums_first, sums_last, sums_saturated, sums_offset}),
+    .valid_o (angle_valid),
+    .ready_i (advance),
+    .phase_o (angle_phase),
+    .zero_o  (angle_zero),
+    .length_o(angle_length),
+    .shift_o (angle_shift),
+    .meta_o  ({angle_first, angle_last, angle_saturated, angle_offset})
   );
 
-  wire normal_valid;
-  wire [23:0] normal_major;
-  wire [23:0] normal_minor;
-  wire [4:0] normal_shift;
-  wire [2:0] normal_octant;
-  wire normal_zero;
-  wire [18:0] normal_meta;
-
-  vuris_normaliser u_normaliser (
-    .clk_i    (clk_i),
-    .rst_ni   (rst_ni),
-    .advance_i(advance),
-    .valid_i  (vector_valid),
-    .x_i      (vector_x),
-    .y_i      (vector_y),
-    .meta_i   (vector_meta),
-    .valid_o  (normal_valid),
-    .major_o  (normal_major),
-    .minor_o  (normal_minor),
-    .shift_o  (normal_shift),
-    .octant_o (normal_octant),
-    .zero_o   (normal_zero),
-    .meta_o   (normal_meta)
-  );
-
-  wire rotated_valid;
-  wire [23:0] rotated_x;
-  wire [22:0] rotated_angle;
-  wire [4:0] rotated_shift;
-  wire [2:0] rotated_octant;
-  wire rotated_zero;
-  wire rotated_first;
-  wire rotated_last;
-  wire rotated_saturated;
-  wire [15:0] rotated_offset;
-
-  vuris_cordic u_cordic (
-    .clk_i    (clk_i),
-    .rst_ni   (rst_ni),
-    .advance_i(advance),
-    .valid_i  (normal_valid),
-    .major_i  (normal_major),
-    .minor_i  (normal_minor),
-    .meta_i   ({normal_zero, normal_octant, normal_shift, normal_meta}),
-    .valid_o  (rotated_valid),
-    .x_o      (rotated_x),
-    .angle_o  (rotated_angle),
-    .meta_o   ({rotated_zero, rotated_octant, rotated_shift,
-                rotated_first, rotated_last, rotated_saturated, rotated_offset})
-  );
-
-  wire [17:0] phase;
-  wire [15:0] amplitude;
-  wire [15:0] offset;
-
-  vuris_phase u_phase (
-    .clk_i    (clk_i),
-    .advance_i(advance),
-    .angle_i  (rotated_angle),
-    .octant_i (rotated_octant),
-    .zero_i   (rotated_zero),
-    .phase_o  (phase)
-  );
+  wire [15:0] result_offset;
+  wire [18:0] result_distance;
+  wire [15:0] result_amplitude;
 
   vuris_amplitude u_amplitude (
     .clk_i      (clk_i),
     .advance_i  (advance),
-    .x_i        (rotated_x),
-    .shift_i    (rotated_shift),
-    .zero_i     (rotated_zero),
-    .amplitude_o(amplitude)
+    .x_i        (angle_length),
+    .shift_i    (angle_shift),
+    .zero_i     (angle_zero),
+    .amplitude_o(result_amplitude)
   );
 
   vuris_offset u_offset (
     .clk_i    (clk_i),
     .advance_i(advance),
-    .sum_i    (rotated_offset),
-    .offset_o (offset)
+    .sum_i    (angle_offset),
+    .offset_o (result_offset)
   );
-
-  wire polar_valid;
-  wire polar_zero;
-  wire polar_first;
-  wire polar_last;
-  wire polar_saturated;
-
-  vuris_delay #(
-    .WIDTH (4),
-    .CLOCKS(2)
-  ) u_polar_delay (
-    .clk_i    (clk_i),
-    .rst_ni   (rst_ni),
-    .advance_i(advance),
-    .valid_i  (rotated_valid),
-    .data_i   ({rotated_zero, rotated_first, rotated_last, rotated_saturated}),
-    .valid_o  (polar_valid),
-    .data_o   ({polar_zero, polar_first, polar_last, polar_saturated})
-  );
-  // Without a vector there is no phase.
-  wire polar_usable = !polar_zero;
-
-  wire [18:0] distance;
 
   vuris_distance u_distance (
     .clk_i     (clk_i),
     .advance_i (advance),
-    .phase_i   (phase),
-    .distance_o(distance)
+    .phase_i   (angle_phase),
+    .distance_o(result_distance)
   );
 
   wire result_valid;
+  wire result_zero;
   wire result_first;
   wire result_last;
   wire result_saturated;
-  wire result_usable;
-  wire [15:0] result_offset;
-  wire [15:0] result_amplitude;
   wire [17:0] result_phase;
 
   vuris_delay #(
-    .WIDTH (54),
+    .WIDTH (22),
     .CLOCKS(2)
   ) u_result_delay (
     .clk_i    (clk_i),
     .rst_ni   (rst_ni),
     .advance_i(advance),
-    .valid_i  (polar_valid),
-    .data_i   ({polar_first, polar_last, polar_saturated, polar_usable, offset, amplitude, phase}),
+    .valid_i  (angle_valid),
+    .data_i   ({angle_zero, angle_first, angle_last, angle_saturated, angle_phase}),
     .valid_o  (result_valid),
-    .data_o   ({result_first, result_last, result_saturated, result_usable,
-                result_offset, result_amplitude, result_phase})
+    .data_o   ({result_zero, result_first, result_last, result_saturated, result_phase})
   );
+  // Without a vector there is no phase.
+  wire result_usable = !result_zero;
 
   wire result_ready;
   wire [87:0] result_data = {
@@ -286,7 +289,7 @@ module vuris_pipeline (
     result_saturated,
     result_usable,
     5'd0,
-    distance,
+    result_distance,
     result_offset,
     result_amplitude,
     6'd0,

@@ -4,10 +4,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Stages, a strobe bit each, values 64 bits each:
 //   0 accumulator: in_phase quadrature offset_sum saturated
-//   1 sums: x y
-//   2 cordic: phase amplitude offset usable
-//   3 distance: distance
-//   4 output: phase amplitude offset distance usable saturated
+//   1 angle: phase
+//   2 results: amplitude offset distance usable
+//   3 output: phase amplitude offset distance usable saturated
 `default_nettype none
 module bench_taps (
   input  wire        clk_i,            // clock
@@ -25,8 +24,29 @@ module bench_taps (
   output wire [31:0] sets_done_o,      // counter
   output wire [31:0] sets_discarded_o, // counter
   output wire [31:0] stall_clocks_o,   // counter
-  output wire [4:0] strobe_o,         // a pixel passes the stage
-  output wire [1087:0] values_o          // what it carries
+  input  wire        s_axil_awvalid,   // registers
+  output wire        s_axil_awready,   // registers
+  input  wire [7:0]  s_axil_awaddr,    // registers
+  input  wire        s_axil_wvalid,    // registers
+  output wire        s_axil_wready,    // registers
+  input  wire [31:0] s_axil_wdata,     // registers
+  input  wire [3:0]  s_axil_wstrb,     // registers
+  output wire        s_axil_bvalid,    // registers
+  input  wire        s_axil_bready,    // registers
+  output wire [1:0]  s_axil_bresp,     // registers
+  input  wire        s_axil_arvalid,   // registers
+  output wire        s_axil_arready,   // registers
+  input  wire [7:0]  s_axil_araddr,    // registers
+  output wire        s_axil_rvalid,    // registers
+  input  wire        s_axil_rready,    // registers
+  output wire [31:0] s_axil_rdata,     // registers
+  output wire [1:0]  s_axil_rresp,     // registers
+  output wire [31:0] frequency_factor_o,  // to the modulation hardware
+  output wire        next_frame_strobe_o, // to the modulation hardware: what follows is new
+  output wire [19:0] next_frame_o,       // {first of a set, phase step, its phase}
+  output wire [3:0] strobe_o,         // a pixel passes the stage
+  output wire        padding_o,        // a bit between the result's fields is not 0
+  output wire [959:0] values_o          // what it carries
 );
 
   vuris_pipeline dut (
@@ -44,40 +64,59 @@ module bench_taps (
     .m_axis_tuser    (m_axis_tuser),
     .sets_done_o     (sets_done_o),
     .sets_discarded_o(sets_discarded_o),
-    .stall_clocks_o  (stall_clocks_o)
+    .stall_clocks_o  (stall_clocks_o),
+    .s_axil_awvalid  (s_axil_awvalid),
+    .s_axil_awready  (s_axil_awready),
+    .s_axil_awaddr   (s_axil_awaddr),
+    .s_axil_wvalid   (s_axil_wvalid),
+    .s_axil_wready   (s_axil_wready),
+    .s_axil_wdata    (s_axil_wdata),
+    .s_axil_wstrb    (s_axil_wstrb),
+    .s_axil_bvalid   (s_axil_bvalid),
+    .s_axil_bready   (s_axil_bready),
+    .s_axil_bresp    (s_axil_bresp),
+    .s_axil_arvalid  (s_axil_arvalid),
+    .s_axil_arready  (s_axil_arready),
+    .s_axil_araddr   (s_axil_araddr),
+    .s_axil_rvalid   (s_axil_rvalid),
+    .s_axil_rready   (s_axil_rready),
+    .s_axil_rdata    (s_axil_rdata),
+    .s_axil_rresp    (s_axil_rresp),
+    .frequency_factor_o(frequency_factor_o),
+    .next_frame_strobe_o(next_frame_strobe_o),
+    .next_frame_first_o (next_frame_o[19]),
+    .next_frame_step_o  (next_frame_o[16 +: 3]),
+    .next_frame_phase_o (next_frame_o[15:0])
   );
 
+  assign padding_o = |(m_axis_tdata & 88'b1111110011111000000000000000000000000000000000000000000000000000111111000000000000000000);
+
   // accumulator
-  assign strobe_o[0] = dut.sums_valid && dut.advance;
+  assign strobe_o[0] = dut.sums_valid && dut.sums_taken;
   assign values_o[0 +: 64] = {48'd0, dut.sums_in_phase};
   assign values_o[64 +: 64] = {49'd0, dut.sums_quadrature};
   assign values_o[128 +: 64] = {48'd0, dut.sums_offset};
   assign values_o[192 +: 64] = {63'd0, dut.sums_saturated};
 
-  // sums
-  assign strobe_o[1] = dut.vector_valid && dut.advance;
-  assign values_o[256 +: 64] = {38'd0, dut.vector_x};
-  assign values_o[320 +: 64] = {39'd0, dut.vector_y};
+  // angle
+  assign strobe_o[1] = dut.angle_valid && dut.advance;
+  assign values_o[256 +: 64] = {46'd0, dut.angle_phase};
 
-  // cordic
-  assign strobe_o[2] = dut.polar_valid && dut.advance;
-  assign values_o[384 +: 64] = {46'd0, dut.phase};
-  assign values_o[448 +: 64] = {48'd0, dut.amplitude};
-  assign values_o[512 +: 64] = {48'd0, dut.offset};
-  assign values_o[576 +: 64] = {63'd0, dut.polar_usable};
-
-  // distance
-  assign strobe_o[3] = dut.result_valid && dut.advance;
-  assign values_o[640 +: 64] = {45'd0, dut.distance};
+  // results
+  assign strobe_o[2] = dut.result_valid && dut.advance;
+  assign values_o[320 +: 64] = {48'd0, dut.result_amplitude};
+  assign values_o[384 +: 64] = {48'd0, dut.result_offset};
+  assign values_o[448 +: 64] = {45'd0, dut.result_distance};
+  assign values_o[512 +: 64] = {63'd0, dut.result_usable};
 
   // output
-  assign strobe_o[4] = m_axis_tvalid && m_axis_tready;
-  assign values_o[704 +: 64] = {46'd0, m_axis_tdata[0 +: 18]};
-  assign values_o[768 +: 64] = {48'd0, m_axis_tdata[24 +: 16]};
-  assign values_o[832 +: 64] = {48'd0, m_axis_tdata[40 +: 16]};
-  assign values_o[896 +: 64] = {45'd0, m_axis_tdata[56 +: 19]};
-  assign values_o[960 +: 64] = {63'd0, m_axis_tdata[80 +: 1]};
-  assign values_o[1024 +: 64] = {63'd0, m_axis_tdata[81 +: 1]};
+  assign strobe_o[3] = m_axis_tvalid && m_axis_tready;
+  assign values_o[576 +: 64] = {46'd0, m_axis_tdata[0 +: 18]};
+  assign values_o[640 +: 64] = {48'd0, m_axis_tdata[24 +: 16]};
+  assign values_o[704 +: 64] = {48'd0, m_axis_tdata[40 +: 16]};
+  assign values_o[768 +: 64] = {45'd0, m_axis_tdata[56 +: 19]};
+  assign values_o[832 +: 64] = {63'd0, m_axis_tdata[80 +: 1]};
+  assign values_o[896 +: 64] = {63'd0, m_axis_tdata[81 +: 1]};
 
 endmodule
 `default_nettype wire

@@ -1,6 +1,8 @@
 //! `vuris explain`
 
+use super::generate::shown_spec;
 use super::print::say;
+use crate::package::numbers;
 use crate::problem::Result;
 use crate::report::explanation;
 use crate::spec::Pipeline;
@@ -16,6 +18,9 @@ pub(super) struct Explain {
     /// Print the specification instead, as a TOML file with every default written out
     #[arg(long)]
     toml: bool,
+    /// Print the numbers for programs, as JSON
+    #[arg(long, conflicts_with = "toml")]
+    json: bool,
 }
 
 impl Explain {
@@ -23,6 +28,9 @@ impl Explain {
         let pipeline = Pipeline::named(&self.spec)?;
         if self.toml {
             say!("{}", pipeline.to_toml().trim_end());
+        } else if self.json {
+            let made_by = format!("vuris explain --spec {} --json", shown_spec(&self.spec));
+            say!("{}", numbers(&pipeline, &made_by).trim_end());
         } else {
             say!("{}", explanation(&pipeline).trim_end());
         }

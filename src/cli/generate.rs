@@ -3,17 +3,18 @@
 use super::print::{counted, say};
 use super::{agreement, golden_of_preset, progress};
 use crate::artifact::{self, Difference};
-use crate::hdl::{Source, all_artifacts};
+use crate::hdl::{Source, all_artifacts, angle_core_artifacts, angle_stimulus};
+use crate::package::{angle_package_artifacts, package_artifacts};
 use crate::problem::Result;
-use crate::spec::Pipeline;
+use crate::spec::Design;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Write Verilog, test benches, golden vectors and a file list from a specification
+/// Write Verilog, test benches, golden vectors, a package and an integration guide from a specification
 #[derive(Debug, Args)]
 pub(super) struct Generate {
-    /// Specification: a preset (vuris, vuris-four-frame) or a TOML file
+    /// Specification: a preset (vuris, vuris-fast, vuris-four-frame, angle-16, angle-16-folded, angle-16-iterative, angle-16-poly, angle-16-poly-memory) or a TOML file
     #[arg(long, value_name = "FILE|PRESET")]
     spec: String,
     /// Folder to write to, or to check
@@ -23,6 +24,9 @@ pub(super) struct Generate {
     #[arg(long)]
     check: bool,
 }
+
+/// Seed of the vectors of an angle unit's bench.
+const ANGLE_SEED: u64 = 1;
 
 /// What a banner calls the specification: a preset's name, or a file's without its folder, with nothing that could end a
 /// comment.
@@ -43,14 +47,25 @@ fn quoted(argument: &str) -> String {
 
 impl Generate {
     pub(super) fn run(self) -> Result<ExitCode> {
-        let pipeline = Pipeline::named(&self.spec)?;
         let spec = shown_spec(&self.spec);
-        let source = Source { pipeline: &pipeline, spec: &spec };
-        let golden = progress::during("running the model", || golden_of_preset(&pipeline))?;
-        let artifacts = all_artifacts(&source, &golden);
+        let (name, artifacts) = match Design::named(&self.spec)? {
+            Design::Pipeline(pipeline) => {
+                let source = Source { pipeline: &pipeline, spec: &spec };
+                let golden = progress::during("running the model", || golden_of_preset(&pipeline))?;
+                let mut artifacts = all_artifacts(&source, &golden);
+                artifacts.extend(package_artifacts(&source, &artifacts, &[]));
+                (pipeline.name.clone(), artifacts)
+            }
+            Design::Angle(core) => {
+                let vectors = angle_stimulus(&core.unit, ANGLE_SEED);
+                let mut artifacts = angle_core_artifacts(&core, &spec, &vectors);
+                artifacts.extend(angle_package_artifacts(&core, &spec, &artifacts));
+                (core.name.clone(), artifacts)
+            }
+        };
         if !self.check {
             artifact::write(&self.out, &artifacts)?;
-            say!("{}: {} files of specification {}", self.out.display(), artifacts.len(), pipeline.name);
+            say!("{}: {} files of specification {}", self.out.display(), artifacts.len(), name);
             return Ok(ExitCode::SUCCESS);
         }
         let differences = artifact::differences(&self.out, &artifacts)?;

@@ -1,14 +1,19 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
 mod campaign;
+mod coverage;
 mod demo;
 mod explain;
 mod generate;
+mod mutate;
 mod print;
 mod process;
 mod progress;
+mod prove;
 mod scene;
 mod stimulus;
+mod sweep;
+mod synth;
 mod verify;
 
 pub use stimulus::{golden_of_preset, scene_sets};
@@ -34,7 +39,12 @@ enum Command {
     Process(process::Process),
     Explain(explain::Explain),
     Scene(scene::Scene),
+    Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
+    Synth(synth::Synth),
+    Mutate(mutate::Mutate),
+    Coverage(coverage::Coverage),
+    Prove(prove::Prove),
 }
 
 impl Arguments {
@@ -47,7 +57,12 @@ impl Arguments {
             Command::Process(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
+            Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
+            Command::Synth(command) => command.run(),
+            Command::Mutate(command) => command.run(),
+            Command::Coverage(command) => command.run(),
+            Command::Prove(command) => command.run(),
         }
     }
 }

@@ -4,10 +4,10 @@ use super::campaign::{self, Fitted};
 use super::generate::shown_spec;
 use super::print::{counted, say};
 use super::{SchemeArgument, agreement, progress, scene_sets};
-use crate::cosim::{Outcome, Simulation, Simulator, Traffic, standard};
-use crate::hdl::{Golden, Scenario, Segment, Source};
+use crate::cosim::{Outcome, Simulation, Simulator, Traffic, simulate_angle, standard};
+use crate::hdl::{Golden, Scenario, Segment, Source, angle_stimulus};
 use crate::problem::{Problem, Result};
-use crate::spec::Pipeline;
+use crate::spec::{AngleCore, Design, Pipeline};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ use std::process::ExitCode;
 /// Build the generated Verilog in a real simulator and confirm that it agrees with the model, bit by bit, at every stage
 #[derive(Debug, Args)]
 pub(super) struct Verify {
-    /// Specification: a preset (vuris, vuris-four-frame) or a TOML file
+    /// Specification: a preset (vuris, vuris-fast, vuris-four-frame, angle-16, angle-16-folded, angle-16-iterative) or a TOML file
     #[arg(long, value_name = "FILE|PRESET")]
     spec: String,
     /// Simulator
@@ -190,7 +190,17 @@ impl Subject {
 
 impl Verify {
     pub(super) fn run(self) -> Result<ExitCode> {
-        let base = Pipeline::named(&self.spec)?;
+        let base = match Design::named(&self.spec)? {
+            Design::Pipeline(pipeline) => *pipeline,
+            Design::Angle(core) => {
+                if let Some(folder) = &self.recording {
+                    return Err(Problem::in_file(folder, "is a recording, and an angle unit takes vectors")
+                        .expected("a specification of a pipeline")
+                        .remedy("leave --recording out"));
+                }
+                return self.verify_angle(&core);
+            }
+        };
         let subjects = match &self.recording {
             Some(folder) => Subject::of_recordings(&base, folder, self.scheme, self.sets)?,
             None => {
@@ -210,20 +220,63 @@ impl Verify {
                 _ => work.join(format!("{}-{number}", subject.pipeline.modulation.scheme.name)),
             });
             for &simulator in self.simulator.simulators() {
-                let traffics = if single {
-                    let Traffic { seed, pause_percent, stop_percent } =
-                        Traffic { seed: self.seed, ..Traffic::default() };
-                    vec![Traffic {
-                        seed,
-                        pause_percent: self.pause.unwrap_or(pause_percent),
-                        stop_percent: self.stop.unwrap_or(stop_percent),
-                    }]
-                } else {
-                    profiles(subject, simulator, self.seed)?
-                };
+                let traffics =
+                    if single { vec![self.traffic()] } else { profiles(subject, simulator, self.seed)? };
                 let outcomes = subject.verify(&self.spec, simulator, &traffics, work.as_deref())?;
                 agrees &= outcomes.iter().all(|outcome| outcome.mismatches == 0);
             }
+        }
+        Ok(agreement(agrees))
+    }
+
+    /// The one mixture that was asked for.
+    fn traffic(&self) -> Traffic {
+        let Traffic { seed, pause_percent, stop_percent } = Traffic { seed: self.seed, ..Traffic::default() };
+        Traffic {
+            seed,
+            pause_percent: self.pause.unwrap_or(pause_percent),
+            stop_percent: self.stop.unwrap_or(stop_percent),
+        }
+    }
+
+    /// An angle unit by itself.
+    fn verify_angle(&self, core: &AngleCore) -> Result<ExitCode> {
+        let spec = shown_spec(&self.spec);
+        let vectors = angle_stimulus(&core.unit, self.seed.into());
+        let traffics = if self.pause.is_some() || self.stop.is_some() {
+            vec![self.traffic()]
+        } else {
+            Traffic::profiles(self.seed).to_vec()
+        };
+        let mut agrees = true;
+        for &simulator in self.simulator.simulators() {
+            let temporary = tempfile::Builder::new()
+                .prefix("vuris-verify-")
+                .tempdir()
+                .map_err(|error| Problem::io(&std::env::temp_dir(), "write", &error))?;
+            let folder = self.work.as_deref().unwrap_or(temporary.path());
+            let outcomes = progress::during(format!("{}: building and running", simulator.name()), || {
+                simulate_angle(core, &spec, &vectors, simulator, &traffics, folder, &|_| {})
+            })?;
+            let mut differs = false;
+            for (traffic, outcome) in traffics.iter().zip(&outcomes) {
+                let verdict = if outcome.mismatches == 0 { "bit-exact" } else { "DIFFERS" };
+                say!(
+                    "{} in {}: {verdict}: weak vectors, corners, random vectors of every octave, {} % pauses, {} % stops: {}, {} clocks in {:.1} s",
+                    core.name,
+                    simulator.name(),
+                    traffic.pause_percent,
+                    traffic.stop_percent,
+                    counted(outcome.values as usize, "vector"),
+                    outcome.clocks,
+                    outcome.simulation_s
+                );
+                differs |= outcome.mismatches > 0;
+            }
+            if differs && self.work.is_none() {
+                say!("  kept: {}", temporary.keep().display());
+            }
+            agrees &= !differs;
         }
         Ok(agreement(agrees))
     }

@@ -27,8 +27,17 @@ fn field<'a>(line: &'a str, key: &str) -> Option<&'a str> {
 impl Finding {
     /// The finding in a bench's line, where it is one.
     pub(super) fn parse(line: &str, pipeline: &Pipeline, golden: &Golden) -> Option<Self> {
-        const KINDS: [&str; 7] =
-            ["MISMATCH", "SURPLUS", "MISSING", "STUCK", "COUNTERS", "UNSTABLE", "BROKEN"];
+        const KINDS: [&str; 9] = [
+            "MISMATCH",
+            "SURPLUS",
+            "MISSING",
+            "STUCK",
+            "COUNTERS",
+            "UNSTABLE",
+            "SEQUENCER",
+            "REGISTER",
+            "BROKEN",
+        ];
         let kind = line.split_whitespace().next()?;
         if !KINDS.contains(&kind) {
             return None;

@@ -17,6 +17,8 @@ pub struct Tool {
 pub const IVERILOG: Tool = Tool { name: "iverilog", remedy: "apt-get install iverilog, or `make setup`" };
 /// Icarus Verilog's runtime.
 pub const VVP: Tool = Tool { name: "vvp", remedy: "apt-get install iverilog, or `make setup`" };
+/// Yosys: netlists, mutants and proofs.
+pub const YOSYS: Tool = Tool { name: "yosys", remedy: "apt-get install yosys, or `make setup`" };
 const VERILATOR: Tool = Tool {
     name: "verilator",
     remedy: "`make setup` in the repository; or set VURIS_VERILATOR to the program; or apt-get install verilator",
@@ -102,7 +104,7 @@ impl Verilator {
 }
 
 /// Runs `command`; its output, standard error after standard output, and whether it succeeded.
-pub(super) fn output(command: &mut Command) -> Result<(bool, String)> {
+pub fn output(command: &mut Command) -> Result<(bool, String)> {
     let program = command.get_program().to_string_lossy().into_owned();
     let output = command
         .stdin(std::process::Stdio::null())

@@ -2,17 +2,22 @@
 //!
 //! One template a module, in `hdl-templates/`; values arrive there finished.
 
+mod accumulator;
 mod angle;
 mod bench;
 mod control;
 mod golden;
 mod polar;
+mod poly;
+mod registers;
+mod rom;
+mod sequencer;
 mod text;
 mod top;
 
-pub use angle::AngleSource;
+pub use angle::{AngleSource, angle_core_artifacts, angle_stimulus};
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
-pub use golden::{Golden, Rest, Scenario, Segment, StimulusWord};
+pub use golden::{Epoch, Golden, GoldenAccess, Rest, Scenario, Segment, StimulusWord};
 pub use top::{ResultField, result_bits, result_fields};
 
 use crate::artifact::Artifact;
@@ -64,16 +69,22 @@ const MODULES: &[Module] = &[
         render: control::framing,
     },
     Module {
+        noun: "sequencer",
+        purpose: "The order of the phase steps, and which of them the next raw frame must have.",
+        belongs: always,
+        render: sequencer::sequencer,
+    },
+    Module {
         noun: "sum_memory",
         purpose: "The sums of all pixels.",
         belongs: always,
-        render: control::sum_memory,
+        render: accumulator::sum_memory,
     },
     Module {
         noun: "accumulator",
         purpose: "In-phase, quadrature and offset sums of every pixel, added while frames arrive.",
         belongs: always,
-        render: control::accumulator,
+        render: accumulator::accumulator,
     },
     Module {
         noun: "amplitude",
@@ -87,6 +98,12 @@ const MODULES: &[Module] = &[
         purpose: "The distance of a phase.",
         belongs: always,
         render: polar::distance,
+    },
+    Module {
+        noun: "registers",
+        purpose: "Registers for a processor, over AXI4-Lite.",
+        belongs: |pipeline| pipeline.registers.axi4_lite,
+        render: registers::registers,
     },
 ];
 
@@ -105,11 +122,24 @@ pub fn modules(pipeline: &Pipeline) -> Vec<(&'static str, &'static str)> {
         .collect()
 }
 
+/// The nouns of all modules that any pipeline has, in the order in which they are listed.
+pub fn module_nouns() -> impl Iterator<Item = &'static str> {
+    let mut nouns: Vec<&'static str> = MODULES.iter().map(|module| module.noun).collect();
+    // Another architecture's module of the same noun is the same row.
+    for module in ANGLE_MODULES {
+        if !nouns.contains(&module.noun) {
+            nouns.push(module.noun);
+        }
+    }
+    nouns.into_iter()
+}
+
 /// The Verilog files of the angle unit alone, its top module `<prefix>_angle` last, and the file list.
 pub fn angle_artifacts(source: &AngleSource, spec: &str) -> Vec<Artifact> {
     let mut artifacts = angle_files(source, spec);
     let top = format!("{}_angle", source.prefix);
     artifacts.push(file_list(&artifacts, &top, spec));
+    artifacts.extend(poly::ecp5_artifact(source, spec));
     artifacts
 }
 
@@ -166,6 +196,7 @@ fn specification_artifact(source: &Source) -> Artifact {
 pub fn all_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let mut artifacts = rtl_artifacts(source);
     artifacts.push(specification_artifact(source));
+    artifacts.extend(registers::map_artifacts(source));
     artifacts.extend(bench_artifacts(source, golden));
     artifacts.extend(vector_artifacts(source, golden));
     artifacts

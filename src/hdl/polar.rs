@@ -21,7 +21,7 @@ struct Amplitude {
     factor_shift: u32,
     exponent: i64,
     gain: String,
-    divisor: i64,
+    divisor: f64,
     rows: Vec<String>,
     x_bits: u32,
     shift_bits: u32,
@@ -57,7 +57,7 @@ pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<Strin
             - 1
             - i64::from(angle.fraction_bits),
         gain: format!("{:.9}", exact::angle_gain_f64(angle.metric, angle.stages.x_iterations)),
-        divisor: pipeline.modulation.scheme.gain * pipeline.modulation.frames_per_step as i64,
+        divisor: pipeline.modulation.scheme.gain * pipeline.modulation.frames_per_step as f64,
         rows: table(&rows),
         x_bits: length.bits,
         shift_bits,

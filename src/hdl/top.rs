@@ -3,7 +3,7 @@
 use super::Source;
 use super::control::Counters;
 use super::text::{literal, range};
-use crate::spec::Pipeline;
+use crate::spec::{ADDRESS_BITS, Pipeline};
 use askama::Template;
 
 /// One field of the result word; every field starts on a byte.
@@ -69,7 +69,7 @@ struct Top {
     prefix: String,
     width: usize,
     height: usize,
-    scheme: &'static str,
+    scheme: String,
     frames_per_set: usize,
     latency: u32,
     fields: Vec<FieldRow>,
@@ -95,6 +95,11 @@ struct Top {
     amplitude_range: String,
     offset_range: String,
     distance_range: String,
+    registers: bool,
+    register_address_range: String,
+    saturated_bit: String,
+    phase_step_bits: u32,
+    phase_step_range: String,
     minimum_amplitude: i64,
     minimum_amplitude_literal: String,
 }
@@ -118,6 +123,8 @@ pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String
     let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
     let counters = Counters::new(source);
     let sample_bits = derived.sample.bits;
+    let saturated = result_fields(pipeline).into_iter().find(|field| field.name == "saturated");
+    let saturated_bit = saturated.map_or(0, |field| field.low);
     let rows: Vec<FieldRow> = result_fields(pipeline)
         .into_iter()
         .map(|field| FieldRow {
@@ -130,7 +137,7 @@ pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String
         prefix: pipeline.prefix(),
         width: pipeline.sensor.width,
         height: pipeline.sensor.height,
-        scheme: pipeline.modulation.scheme.name,
+        scheme: pipeline.modulation.scheme.name.to_string(),
         frames_per_set: derived.frames_per_set,
         latency: derived.latency_clocks,
         fields: rows,
@@ -156,6 +163,11 @@ pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String
         amplitude_range: range(derived.amplitude.bits),
         offset_range: range(derived.offset.bits),
         distance_range: range(derived.distance.bits),
+        registers: pipeline.registers.axi4_lite,
+        register_address_range: range(ADDRESS_BITS),
+        saturated_bit: format!("[{saturated_bit}]"),
+        phase_step_bits: pipeline.modulation.phase_step_bits,
+        phase_step_range: range(pipeline.modulation.phase_step_bits),
         minimum_amplitude: derived.minimum_amplitude,
         minimum_amplitude_literal: literal(derived.amplitude.bits, derived.minimum_amplitude),
     }

@@ -11,7 +11,7 @@ use crate::spec::Pipeline;
 pub struct PixelSlot {
     /// Pixel number within the frame.
     pub address: usize,
-    /// Phase step within the set.
+    /// The scheme's phase step that the frame has.
     pub step: usize,
     /// Whether this is the set's first frame, whose samples replace what the memory holds.
     pub first_frame: bool,
@@ -24,6 +24,9 @@ pub struct FramingEvent {
     pub commit: bool,
     /// The beat's place, where it belongs to a set.
     pub slot: Option<PixelSlot>,
+    /// Number within its set of the frame that must come next, where the event decides that: where a frame begins, and where a
+    /// set is lost.
+    pub next: Option<usize>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,13 +47,14 @@ pub struct Framing {
     width: usize,
     height: usize,
     frames_per_step: usize,
-    steps: usize,
+    /// The phase step at each place of a set.
+    order: Vec<usize>,
     longest_pause_clocks: u32,
     state: State,
     column: usize,
     row: usize,
     repeat: usize,
-    step: usize,
+    place: usize,
     /// Sets that were complete, modulo 2^32.
     pub sets_done: u32,
     /// Sets that were discarded, modulo 2^32.
@@ -64,13 +68,13 @@ impl Framing {
             width: pipeline.sensor.width,
             height: pipeline.sensor.height,
             frames_per_step: pipeline.modulation.frames_per_step,
-            steps: pipeline.modulation.scheme.steps(),
+            order: pipeline.modulation.steps_in_order(),
             longest_pause_clocks: pipeline.sensor.line_blanking_clocks,
             state: State::Lost,
             column: 0,
             row: 0,
             repeat: 0,
-            step: 0,
+            place: 0,
             sets_done: 0,
             sets_discarded: 0,
         }
@@ -86,16 +90,20 @@ impl Framing {
             StreamEvent::Pause { clocks } => self.silence(clocks > self.longest_pause_clocks),
             StreamEvent::Rest => self.silence(true),
             StreamEvent::Beat(beat) => self.beat(beat),
+            StreamEvent::Access(_) => FramingEvent::default(),
         }
     }
 
     /// A silence that is `long` ends a frame.
     fn silence(&mut self, long: bool) -> FramingEvent {
-        FramingEvent { commit: long && self.state == State::Closing && self.commit(), slot: None }
+        FramingEvent {
+            commit: long && self.state == State::Closing && self.commit(),
+            ..FramingEvent::default()
+        }
     }
 
     fn at_start(&self) -> Self {
-        Self { column: 0, row: 0, repeat: 0, step: 0, ..self.clone() }
+        Self { column: 0, row: 0, repeat: 0, place: 0, ..self.clone() }
     }
 
     fn commit(&mut self) -> bool {
@@ -120,30 +128,39 @@ impl Framing {
         let in_place = beat.start_of_frame == (self.column == 0 && self.row == 0)
             && (start || !beat.start_of_set)
             && beat.end_of_line == (self.column == self.width - 1);
-        let slot = match self.state {
-            State::Active if in_place => Some(self.take()),
-            State::Lost => None,
+        let (slot, next) = match self.state {
+            State::Active if in_place => {
+                let next = beat.start_of_frame.then(|| self.next_frame());
+                (Some(self.take()), next)
+            }
+            State::Lost => (None, None),
             State::Active | State::Idle | State::Closing => {
                 self.discard();
                 self.state = State::Lost;
-                None
+                (None, Some(0))
             }
         };
-        FramingEvent { commit, slot }
+        FramingEvent { commit, slot, next }
+    }
+
+    /// Number of the frame after the one that is being taken.
+    fn next_frame(&self) -> usize {
+        (self.place * self.frames_per_step + self.repeat + 1) % (self.order.len() * self.frames_per_step)
     }
 
     /// The slot of a beat that is in place, and one step onwards.
     fn take(&mut self) -> PixelSlot {
         let slot = PixelSlot {
             address: self.row * self.width + self.column,
-            step: self.step,
-            first_frame: self.step == 0 && self.repeat == 0,
+            step: self.order[self.place],
+            first_frame: self.place == 0 && self.repeat == 0,
         };
+        let places = self.order.len();
         for (count, limit) in [
             (&mut self.column, self.width),
             (&mut self.row, self.height),
             (&mut self.repeat, self.frames_per_step),
-            (&mut self.step, self.steps),
+            (&mut self.place, places),
         ] {
             *count += 1;
             if *count < limit {

@@ -10,6 +10,9 @@ mod distance;
 mod framing;
 mod offset;
 mod pipeline;
+mod poly;
+mod registers;
+mod sequencer;
 mod stream;
 
 pub use accumulator::{Accumulator, Sums};
@@ -19,4 +22,7 @@ pub use distance::distance;
 pub use framing::{Framing, FramingEvent, PixelSlot};
 pub use offset::offset;
 pub use pipeline::{PipelineModel, PixelRecord, pixel};
+pub use poly::{poly, poly_arctangent, poly_reciprocal};
+pub use registers::{Access, Answer, ReadData, Registers};
+pub use sequencer::{NextFrame, next_frame};
 pub use stream::{Beat, StreamEvent, beats_of_set};

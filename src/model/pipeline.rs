@@ -2,6 +2,8 @@
 
 use super::accumulator::{Accumulator, Sums};
 use super::framing::Framing;
+use super::registers::{Access, Answer, Registers};
+use super::sequencer::{NextFrame, next_frame};
 use super::stream::StreamEvent;
 use super::{amplitude, distance, offset, turn};
 use crate::spec::Pipeline;
@@ -43,17 +45,29 @@ pub struct PipelineModel<'a> {
     pipeline: &'a Pipeline,
     framing: Framing,
     accumulator: Accumulator<'a>,
+    registers: Registers<'a>,
+    announced: Option<NextFrame>,
 }
 
 impl<'a> PipelineModel<'a> {
     /// The core after reset.
     pub fn new(pipeline: &'a Pipeline) -> Self {
-        Self { pipeline, framing: Framing::new(pipeline), accumulator: Accumulator::new(pipeline) }
+        Self {
+            pipeline,
+            framing: Framing::new(pipeline),
+            accumulator: Accumulator::new(pipeline),
+            registers: Registers::new(pipeline),
+            announced: None,
+        }
     }
 
     /// Advances by one event; the pixels of a set, in order, where the event completes one.
     pub fn advance(&mut self, event: StreamEvent) -> Option<Vec<PixelRecord>> {
         let outcome = self.framing.advance(event);
+        self.announced = outcome.next.map(|frame| next_frame(self.pipeline, frame));
+        if event == StreamEvent::Reset {
+            self.registers = Registers::new(self.pipeline);
+        }
         let set = outcome
             .commit
             .then(|| self.accumulator.sums().iter().map(|&sums| pixel(self.pipeline, sums)).collect());
@@ -61,6 +75,17 @@ impl<'a> PipelineModel<'a> {
             self.accumulator.add(slot, beat.code);
         }
         set
+    }
+
+    /// What the last event made the sequencer tell the modulation hardware, where it did; after a reset that is the set's first
+    /// frame, until something else is told.
+    pub fn announced(&self) -> Option<NextFrame> {
+        self.announced
+    }
+
+    /// The answer of the register block to `access`.
+    pub fn answer(&mut self, access: Access) -> Answer {
+        self.registers.answer(access)
     }
 
     /// Complete and discarded sets since reset.

@@ -1,5 +1,6 @@
-//! The raw stream: one beat a pixel, as AXI4-Stream carries it.
+//! The raw stream: one beat a pixel, as AXI4-Stream carries it; and what else happens to the core beside it.
 
+use super::registers::Access;
 use crate::frames::RawSets;
 
 /// One accepted beat of the input stream.
@@ -15,7 +16,7 @@ pub struct Beat {
     pub end_of_line: bool,
 }
 
-/// What can happen on the way into the core.
+/// What can happen to the core.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StreamEvent {
     /// A beat is accepted.
@@ -27,6 +28,8 @@ pub enum StreamEvent {
     },
     /// Nothing arrives until everything that is due has come out.
     Rest,
+    /// A processor begins to access a register; the stream does not wait for it. A core without registers knows nothing of it.
+    Access(Access),
     /// The core is reset.
     Reset,
 }

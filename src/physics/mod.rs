@@ -29,9 +29,11 @@ use rand_distr::{Distribution, StandardNormal};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Acquisition {
     /// The phase steps of a set.
-    pub scheme: &'static Scheme,
+    pub scheme: Scheme,
     /// Raw frames taken one after the other at every phase step, at least 1.
     pub frames_per_step: usize,
+    /// The scheme's phase steps in the order in which they are taken.
+    pub order: Vec<usize>,
     /// Modulation frequency, Hz, > 0.
     pub frequency_hz: f64,
     /// From the start of a raw frame to the start of the next, s; sets follow each other without a pause.
@@ -43,7 +45,7 @@ pub struct Acquisition {
 impl Acquisition {
     /// Raw frames in a set.
     pub fn frames_per_set(&self) -> usize {
-        self.scheme.steps() * self.frames_per_step
+        self.order.len() * self.frames_per_step
     }
 
     /// Start of frame `frame` of set `set`, s.
@@ -83,7 +85,8 @@ pub fn simulate(
         let middle = view(acquisition.middle_s(set));
         let mut true_m: Vec<f64> = middle.iter().map(|s| s.map_or(f64::NAN, |s| s.range_m)).collect();
         for frame in 0..frames_per_set {
-            let angle_rad = (frame / acquisition.frames_per_step) as f64 * acquisition.scheme.step_rad();
+            let step = acquisition.order[frame / acquisition.frames_per_step];
+            let angle_rad = acquisition.scheme.angle_rad(step);
             let mut noise = noise_seed.map(|seed| noise_of_frame(seed, set * frames_per_set + frame));
             for (pixel, surface) in view(acquisition.start_s(set, frame)).into_iter().enumerate() {
                 if object(surface) != object(middle[pixel]) {

@@ -12,8 +12,9 @@ const FREQUENCY_HZ: f64 = 30e6;
 /// Four frames or WDFT at 30 MHz and 25 ms a frame, one set.
 fn acquisition(name: &str) -> Acquisition {
     Acquisition {
-        scheme: scheme(name).unwrap(),
+        scheme: scheme(name).unwrap().clone(),
         frames_per_step: 1,
+        order: (0..scheme(name).unwrap().steps()).collect(),
         frequency_hz: FREQUENCY_HZ,
         frame_period_s: 0.025,
         sets: 1,
@@ -36,9 +37,10 @@ fn measured(frames: &RawSets, acquisition: &Acquisition) -> Vec<(f64, f64)> {
     (0..frames.geometry().pixels())
         .map(|pixel| {
             let sum: Complex64 = (0..frames.frames_per_set())
-                .map(|n| coefficients[n / acquisition.frames_per_step] * f64::from(frames.frame(0, n)[pixel]))
+                .map(|n| (acquisition.order[n / acquisition.frames_per_step], n))
+                .map(|(step, n)| coefficients[step] * f64::from(frames.frame(0, n)[pixel]))
                 .sum();
-            let gain = (acquisition.scheme.gain * acquisition.frames_per_step as i64) as f64;
+            let gain = acquisition.scheme.gain * acquisition.frames_per_step as f64;
             (sum.arg(), sum.norm() / gain)
         })
         .collect()
@@ -80,7 +82,7 @@ fn without_harmonics_and_noise_the_range_comes_back_to_the_converters_rounding()
         let (frames, true_m) =
             simulate(&scene, &Correlation::sinusoidal(), &Sensor::vuris(), &acquisition, None).unwrap();
         let gain: f64 = acquisition.scheme.characteristic_polynomial().iter().map(|c| c.norm()).sum::<f64>()
-            / acquisition.scheme.gain as f64;
+            / acquisition.scheme.gain;
         for (&(phase, amplitude_dn), &true_m) in measured(&frames, &acquisition).iter().zip(&true_m) {
             let error_rad = wrap_rad(phase - phase_rad(true_m, FREQUENCY_HZ));
             // Every code is off by at most 1/2 DN, so the sum's vector by at most Σ|c_n|/2 over its gain.
@@ -193,6 +195,23 @@ fn a_pixel_that_changes_objects_within_a_set_or_sees_nothing_has_no_true_range()
     let edge = run(&Scene::room(), "wdft");
     assert!((50..1000).contains(&edge), "{edge} pixels at the moving edge");
     assert_eq!(run(&Scene { objects: Vec::new() }, "four_frame"), 160 * 120);
+}
+
+/// A scene that stands still, without noise: each place's frame is that of its step.
+#[test]
+fn frames_are_taken_in_the_order_of_their_steps() {
+    let sensor = Sensor { geometry: Geometry { width: 8, height: 6 }, ..Sensor::vuris() };
+    let scene = Scene::wall(3.0);
+    let ascending = acquisition("wdft");
+    let order = vec![3, 1, 4, 0, 2];
+    let permuted = Acquisition { order: order.clone(), ..ascending.clone() };
+    let take =
+        |acquisition| simulate(&scene, &Correlation::sinusoidal(), &sensor, acquisition, None).unwrap().0;
+    let (frames, reordered) = (take(&ascending), take(&permuted));
+    for (place, &step) in order.iter().enumerate() {
+        assert_eq!(reordered.frame(0, place), frames.frame(0, step), "place {place}");
+    }
+    assert_ne!(frames.frame(0, 1), frames.frame(0, 2));
 }
 
 #[test]

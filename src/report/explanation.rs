@@ -1,15 +1,18 @@
 //! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
 
 use crate::hdl::{result_bits, result_fields};
-use crate::spec::{Architecture, Pipeline, StageWord, Word, exact};
+use crate::spec::{Architecture, Pipeline, REGISTER_BYTES, REGISTERS, SchemeOrigin, StageWord, Word, exact};
 use crate::units::unambiguous_range_m;
 use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
 
 /// A table of quantity, value and reason.
-struct Section {
-    title: &'static str,
-    rows: Vec<[String; 3]>,
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Section {
+    /// What it is about.
+    pub title: &'static str,
+    /// Quantity, value and reason of each row.
+    pub rows: Vec<[String; 3]>,
 }
 
 impl Section {
@@ -34,15 +37,25 @@ fn word(word: Word) -> String {
     format!("{} bits {}", word.bits, if word.signed { "signed" } else { "unsigned" })
 }
 
-/// The tables of `pipeline`.
+/// The tables of `pipeline`, in the order in which the data meets what they are about.
+pub fn sections(pipeline: &Pipeline) -> Vec<Section> {
+    vec![
+        input(pipeline),
+        accumulator(pipeline),
+        angle(pipeline),
+        output(pipeline),
+        registers(pipeline),
+        errors(pipeline),
+    ]
+}
+
+/// The tables of `pipeline` as text.
 pub fn explanation(pipeline: &Pipeline) -> String {
-    let sections =
-        [input(pipeline), accumulator(pipeline), angle(pipeline), output(pipeline), errors(pipeline)];
     let mut text = format!(
         "{}: scheme {}, {}\n",
         pipeline.name, pipeline.modulation.scheme.name, pipeline.modulation.scheme.reference
     );
-    for section in sections {
+    for section in sections(pipeline) {
         text.push('\n');
         text.push_str(&section.text());
     }
@@ -51,7 +64,7 @@ pub fn explanation(pipeline: &Pipeline) -> String {
 
 fn input(pipeline: &Pipeline) -> Section {
     let (derived, sensor) = (pipeline.derived(), &pipeline.sensor);
-    let scheme = pipeline.modulation.scheme;
+    let scheme = &pipeline.modulation.scheme;
     let mut section = Section::new("raw stream");
     section.row("sample", word(derived.sample), "adc_bits");
     section.row(
@@ -62,13 +75,20 @@ fn input(pipeline: &Pipeline) -> Section {
     section.row(
         "raw frames a set",
         derived.frames_per_set,
-        format!(
-            "{} phase steps of {}/{} turn x {} frames a step",
-            scheme.steps(),
-            scheme.step_turns.0,
-            scheme.step_turns.1,
-            pipeline.modulation.frames_per_step
-        ),
+        format!("{} x {} frames a step", scheme.steps_in_words(), pipeline.modulation.frames_per_step),
+    );
+    let modulation = &pipeline.modulation;
+    let order = modulation.steps_in_order();
+    section.row(
+        "order of the steps",
+        format!("{order:?}"),
+        "place by place; the sequencer tells the modulation hardware, and each frame gets its step's weights",
+    );
+    let phases: Vec<i64> = (0..scheme.steps()).map(|step| modulation.step_phase_code(step)).collect();
+    section.row(
+        "phase of each step",
+        format!("{phases:?}"),
+        format!("turns / 2^{}, rounded to nearest, whole turns left out", modulation.phase_step_bits),
     );
     section.row("saturated from", format!("{} DN", sensor.saturation_dn), "saturation_dn, or full scale");
     section.row(
@@ -81,13 +101,13 @@ fn input(pipeline: &Pipeline) -> Section {
 
 fn accumulator(pipeline: &Pipeline) -> Section {
     let derived = pipeline.derived();
-    let scheme = pipeline.modulation.scheme;
+    let scheme = &pipeline.modulation.scheme;
     let mut section = Section::new("accumulator");
     let full_scale = pipeline.modulation.frames_per_step as i64 * derived.sample.max();
     for (name, weights, sum) in [
-        ("in-phase sum", scheme.in_phase, derived.in_phase),
-        ("quadrature sum", scheme.quadrature, derived.quadrature),
-        ("offset sum", scheme.offset, derived.offset_sum),
+        ("in-phase sum", &scheme.in_phase, derived.in_phase),
+        ("quadrature sum", &scheme.quadrature, derived.quadrature),
+        ("offset sum", &scheme.offset, derived.offset_sum),
     ] {
         let part = |sign: i64| weights.iter().filter(|&&weight| weight * sign > 0).sum::<i64>();
         section.row(
@@ -125,6 +145,7 @@ fn angle(pipeline: &Pipeline) -> Section {
             Architecture::Unrolled => "unrolled".to_owned(),
             Architecture::Folded { stages, rounds } => format!("a ring of {stages} stages, {rounds} rounds"),
             Architecture::Iterative => "one iteration a clock".to_owned(),
+            Architecture::Tables => "tables and multipliers".to_owned(),
         },
         format!("a vector every {} clocks", angle.clocks_a_vector(0)),
     );
@@ -234,6 +255,25 @@ fn output(pipeline: &Pipeline) -> Section {
     section
 }
 
+fn registers(pipeline: &Pipeline) -> Section {
+    let mut section = Section::new("registers");
+    section.row(
+        "specification hash",
+        format!("0x{:016x}", pipeline.hash()),
+        "first 64 bits of the SHA-256 of what `vuris explain --toml` prints of this specification",
+    );
+    if !pipeline.registers.axi4_lite {
+        section.row("AXI4-Lite port", "none", "registers.axi4_lite = false");
+        return section;
+    }
+    for (number, register) in REGISTERS.iter().enumerate() {
+        let address = number as u32 * REGISTER_BYTES;
+        let access = if register.writable() { "read and write" } else { "read" };
+        section.row(register.name, format!("0x{address:02x}, {access}"), register.meaning);
+    }
+    section
+}
+
 fn errors(pipeline: &Pipeline) -> Section {
     let budget = pipeline.budget();
     let code_mrad = 1e3 * TAU / f64::from(pipeline.output.phase_bits).exp2();
@@ -273,7 +313,20 @@ fn errors(pipeline: &Pipeline) -> Section {
         format!("0.5 codes + {:.2e}", budget.distance_relative),
         "last rounding, and relative: the factor; beside the phase's own error",
     );
-    let noise = pipeline.modulation.scheme.noise_factor();
+    let scheme = &pipeline.modulation.scheme;
+    if let SchemeOrigin::Dft { .. } = scheme.origin {
+        // Harmonics above half the steps are mirrors of lower ones; 1 less than the steps is the fundamental's.
+        let leakage = |m: usize| scheme.harmonic_leakage(m as i32);
+        let worst = (2..=scheme.steps() / 2).max_by(|&one, &other| leakage(one).total_cmp(&leakage(other)));
+        if let Some(worst) = worst {
+            section.row(
+                "harmonics that rounded weights let through",
+                format!("{:.2e} at most", leakage(worst)),
+                format!("of harmonic {worst}'s own amplitude, over the fundamental's; the exact DFT lets none through up to half its steps"),
+            );
+        }
+    }
+    let noise = scheme.noise_factor();
     section.row(
         "noise of the scheme",
         format!("{noise:.4} x sigma / amplitude rad"),

@@ -6,7 +6,14 @@ mod explanation;
 mod pixel_image;
 mod scale;
 mod svg;
+mod sweep;
+mod synthesis;
 
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
-pub use explanation::explanation;
+pub use explanation::{Section, explanation, sections};
+pub use svg::escaped;
+pub use sweep::{
+    Column, Values, front_table, octave_table, sweep_columns, sweep_csv, sweep_parquet, sweep_picture,
+};
+pub use synthesis::{comparison_table, measured_table, synthesis};

@@ -1,4 +1,4 @@
-//! The SVG elements of a picture of maps: texts, images, colour bars.
+//! The SVG elements of a picture: texts, images, colour bars, lines, dots.
 
 use super::colour_map::{ColourMap, hex};
 use std::fmt::Write;
@@ -102,6 +102,25 @@ impl Svg {
         self.text(x + width / 2.0, low + 38.0, "middle", quantity);
     }
 
+    /// A line through `points`; nothing where there are fewer than two.
+    pub fn stroke(&mut self, points: &[(f64, f64)], colour: &str, width: f64) {
+        if points.len() < 2 {
+            return;
+        }
+        let points = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect::<Vec<_>>().join(" ");
+        self.line(format_args!(
+            "<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
+        ));
+    }
+
+    /// A dot of `colour`, with a text that viewers show when it is pointed at.
+    pub fn dot(&mut self, (x, y): (f64, f64), radius: f64, colour: &str, text: &str) {
+        self.line(format_args!(
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{colour}\"><title>{}</title></circle>",
+            escaped(text)
+        ));
+    }
+
     /// A small square of `colour`.
     pub fn swatch(&mut self, x: f64, y: f64, colour: &str) {
         self.line(format_args!(
@@ -110,6 +129,7 @@ impl Svg {
     }
 }
 
-fn escaped(text: &str) -> String {
+/// `text` with nothing in it that XML would read.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,8 +1,10 @@
 //! The specification's TOML file: reading, checking and writing.
 
+use super::angle::{read_cordic, write_cordic};
+use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Cordic, Modulation, ONE_ITERATION_A_CLOCK, Output, PRESETS, Pipeline, Rounding, Sensor, Specification,
-    Throughput, Word, refused, scheme, scheme_names,
+    Modulation, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order, refused,
+    scheme_file, sequence,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -10,15 +12,13 @@ use std::path::Path;
 
 const FORMAT: &str = "vuris-pipeline/1";
 
-/// Reads the file at `path`.
-pub(super) fn read(path: &str) -> Result<Pipeline> {
-    let text = read_text(Path::new(path)).map_err(|error| {
-        let presets = PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
+/// The text of the file at `path`; `presets` are the names that would have done, too.
+pub(super) fn read(path: &str, presets: &str) -> Result<String> {
+    read_text(Path::new(path)).map_err(|error| {
         Problem::io(Path::new(path), "read the specification", &error)
             .expected(format_args!("a file, or one of the presets {presets}"))
             .remedy("`vuris explain --spec vuris --toml > my.toml` writes a file to start from")
-    })?;
-    Pipeline::parse(path, &text)
+    })
 }
 
 /// The text of a regular file of a plausible size: a device would be read for ever.
@@ -38,7 +38,7 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     let table = fields::parse(source, text)?;
     let top = Fields::top(source, &table);
-    top.only(&["format", "name", "sensor", "modulation", "cordic", "output"])?;
+    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers"])?;
     let expected_format = format!("\"{FORMAT}\"");
     if top.text("format", &expected_format)? != FORMAT {
         return Err(top.refuse("format", &expected_format));
@@ -58,25 +58,26 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let modulation = top.section("modulation")?;
-    modulation.only(&["scheme", "frequency_hz", "frames_per_step"])?;
-    let one_of = format!("one of {}", scheme_names());
+    modulation.only(&[
+        "scheme",
+        "frequency_hz",
+        "frames_per_step",
+        "frames",
+        "coefficient_bits",
+        "order",
+        "phase_step_bits",
+    ])?;
+    let scheme = scheme_file::read(source, &modulation)?;
     let modulation = Modulation {
-        scheme: scheme(modulation.text("scheme", &one_of)?)
-            .ok_or_else(|| modulation.refuse("scheme", &one_of))?,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
+        order: order(&modulation, &scheme)?,
+        scheme,
+        phase_step_bits: modulation.integer_or("phase_step_bits", 2..=24, DEFAULT_PHASE_STEP_BITS.into())?
+            as u32,
     };
 
     let cordic = top.section("cordic")?;
-    cordic.only(&[
-        "iterations",
-        "vector_guard_bits",
-        "angle_guard_bits",
-        "cycles_per_pixel",
-        "pipeline_every",
-        "normalise",
-        "rounding",
-    ])?;
     let cordic = read_cordic(&cordic)?;
 
     let output = top.section("output")?;
@@ -96,70 +97,52 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
         minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
     };
-    Ok(Specification { name, sensor, modulation, cordic, output })
+    Ok(Specification { name, sensor, modulation, cordic, output, registers: registers(&top)? })
 }
 
-/// The table [cordic].
-fn read_cordic(fields: &Fields) -> Result<Cordic> {
-    let cycles = format!("a whole number from 1 to 64, or \"{ONE_ITERATION_A_CLOCK}\"");
-    let throughput = match fields.text("cycles_per_pixel", &cycles) {
-        Ok(ONE_ITERATION_A_CLOCK) => Throughput::OneIterationAClock,
-        _ if !fields.has("cycles_per_pixel") => Throughput::CyclesPerPixel(1),
-        _ => Throughput::CyclesPerPixel(
-            fields
-                .integer("cycles_per_pixel", 1..=64)
-                .map_err(|_| fields.refuse("cycles_per_pixel", &cycles))? as u32,
-        ),
+/// The order of the phase steps, where there is one; [`check`] sees whether it is the scheme's.
+fn order(modulation: &Fields, scheme: &Scheme) -> Result<Option<Vec<usize>>> {
+    if !modulation.has("order") {
+        return Ok(None);
+    }
+    let expected = "a list of the scheme's phase steps, whole numbers from 0 on, such as [0, 3, 1, 4, 2]";
+    let numbers = modulation.numbers("order", expected)?;
+    let whole = numbers.iter().all(|number| number.fract() == 0.0 && (0.0..65_536.0).contains(number));
+    if !whole || numbers.is_empty() {
+        return Err(modulation.refuse("order", expected));
+    }
+    Ok(normalised_order(scheme, numbers.into_iter().map(|number| number as usize).collect()))
+}
+
+/// The register block: none where the section is absent.
+fn registers(top: &Fields) -> Result<RegisterBlock> {
+    let Some(registers) = top.optional_section("registers")? else {
+        return Ok(RegisterBlock::default());
     };
-    let roundings = ROUNDINGS.map(|(name, _)| name).join(" or ");
-    let rounding = if fields.has("rounding") {
-        let name = fields.text("rounding", &roundings)?;
-        let known = ROUNDINGS.iter().find(|row| row.0 == name);
-        known.ok_or_else(|| fields.refuse("rounding", &roundings))?.1
-    } else {
-        Rounding::Nearest
-    };
-    Ok(Cordic {
-        iterations: fields.integer("iterations", 4..=30)? as u32,
-        vector_guard_bits: fields.integer("vector_guard_bits", 0..=8)? as u32,
-        angle_guard_bits: fields.integer("angle_guard_bits", 1..=8)? as u32,
-        throughput,
-        pipeline_every: fields.integer_or("pipeline_every", 1..=30, 1)? as u32,
-        normalise: fields.flag_or("normalise", true)?,
-        rounding,
+    registers.only(&["axi4_lite", "frequency_factor"])?;
+    Ok(RegisterBlock {
+        axi4_lite: registers.flag_or("axi4_lite", true)?,
+        frequency_factor: registers.integer_or("frequency_factor", 0..=u32::MAX.into(), 0)? as u32,
     })
 }
 
-/// The table [cordic] as text.
-fn write_cordic(cordic: &Cordic) -> String {
-    let throughput = match cordic.throughput {
-        Throughput::CyclesPerPixel(clocks) => clocks.to_string(),
-        Throughput::OneIterationAClock => format!("\"{ONE_ITERATION_A_CLOCK}\""),
-    };
-    let rounding = ROUNDINGS.iter().find(|row| row.1 == cordic.rounding).map_or("", |row| row.0);
-    format!(
-        "[cordic]\niterations = {}\nvector_guard_bits = {}\nangle_guard_bits = {}\ncycles_per_pixel = {throughput}\n\
-         pipeline_every = {}\nnormalise = {}\nrounding = \"{rounding}\"\n",
-        cordic.iterations,
-        cordic.vector_guard_bits,
-        cordic.angle_guard_bits,
-        cordic.pipeline_every,
-        cordic.normalise,
-    )
+pub(super) const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
+
+/// Refuses a name that cannot begin the names of Verilog modules.
+pub(super) fn check_name(source: &str, name: &str) -> Result<()> {
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
+    if begins_well && name.chars().all(letter) && name.len() <= 32 {
+        Ok(())
+    } else {
+        Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE))
+    }
 }
-
-const ROUNDINGS: [(&str, Rounding); 2] = [("nearest", Rounding::Nearest), ("truncate", Rounding::Truncate)];
-
-const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
 
 /// What only shows between fields, and what a specification made in code could get wrong.
 pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
     let Specification { name, sensor, .. } = specification;
-    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-    let begins_well = name.starts_with(|c: char| c.is_ascii_lowercase());
-    if !begins_well || !name.chars().all(letter) || name.len() > 32 {
-        return Err(refused(source, "name", format_args!("\"{name}\"")).expected(NAME_RULE));
-    }
+    check_name(source, name)?;
     for (field, value, allowed) in
         [("sensor.width", sensor.width, 2..=4096), ("sensor.height", sensor.height, 1..=4096)]
     {
@@ -191,30 +174,36 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
         return Err(refused(source, "modulation.frames_per_step", specification.modulation.frames_per_step)
             .expected("1 to 256"));
     }
-    Ok(())
+    sequence::check(source, specification)
 }
 
 /// The text of a file that reads as `specification`.
 pub(super) fn write(specification: &Specification) -> String {
-    let Specification { name, sensor, modulation, cordic, output } = specification;
+    let Specification { name, sensor, modulation, cordic, output, registers } = specification;
     format!(
         "format = \"{FORMAT}\"\n\
          name = \"{name}\"\n\
          \n[sensor]\n\
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
-         scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
+         {}frequency_hz = {:?}\nframes_per_step = {}\n\
+         order = {:?}\nphase_step_bits = {}\n{}\
          \n{}\n[output]\n\
          phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
-         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n",
+         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
+         \n[registers]\n\
+         axi4_lite = {}\nfrequency_factor = {}\n",
         sensor.width,
         sensor.height,
         sensor.adc_bits,
         sensor.saturation_dn,
         sensor.line_blanking_clocks,
-        modulation.scheme.name,
+        scheme_file::fields(&modulation.scheme),
         modulation.frequency_hz,
         modulation.frames_per_step,
+        modulation.steps_in_order(),
+        modulation.phase_step_bits,
+        scheme_file::table(&modulation.scheme),
         write_cordic(cordic),
         output.phase_bits,
         output.amplitude,
@@ -222,5 +211,7 @@ pub(super) fn write(specification: &Specification) -> String {
         output.offset_fraction_bits,
         output.distance_unit_m,
         output.minimum_amplitude_dn,
+        registers.axi4_lite,
+        registers.frequency_factor,
     )
 }

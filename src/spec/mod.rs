@@ -6,25 +6,47 @@
 mod angle;
 mod budget;
 mod derived;
+mod design;
+mod dft;
 pub mod exact;
 mod file;
+mod poly;
 mod presets;
+mod registers;
+mod response;
+mod row;
 mod scheme;
+mod scheme_file;
+mod sequence;
+mod step_angle;
+mod storage;
 mod word;
 
 pub use angle::{
-    AngleBudget, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic, ONE_ITERATION_A_CLOCK,
-    Rounding, StageWord, Stages, Throughput,
+    AngleBudget, AngleCore, AngleGroup, AngleSpecification, AngleUnit, Architecture, Atan, Cordic,
+    ONE_ITERATION_A_CLOCK, Rounding, StageWord, Stages, Throughput,
 };
 pub use budget::{Contribution, ErrorBudget};
 pub use derived::Derived;
+pub use design::Design;
+pub use dft::{COEFFICIENT_BITS, DFT_FRAMES};
 pub use exact::ScaledConstant;
-pub use presets::{PRESETS, Preset};
-pub use scheme::{Irrational, SCHEMES, Scheme, scheme, scheme_names};
+pub use poly::{Arctangent, MULTIPLIER_CLOCKS, Poly, PolySpecification, Reciprocal, Tables};
+pub use presets::{ANGLE_PRESETS, PRESETS, Preset};
+pub use registers::{
+    ADDRESS_BITS, Content, Counter, IDENTIFICATION, REGISTER_BYTES, REGISTERS, Register, RegisterBlock,
+    register_at,
+};
+pub use row::{Row, offset_weights};
+pub use scheme::{Irrational, SCHEMES, Scheme, SchemeOrigin, scheme, scheme_names};
+pub use sequence::normalised_order;
+pub use step_angle::StepAngle;
+pub use storage::{Storage, StoredSum};
 pub use word::Word;
 
 use crate::frames::Geometry;
 use crate::problem::{Problem, Result};
+use sha2::{Digest, Sha256};
 
 /// The sensor and its raw stream.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,12 +66,16 @@ pub struct Sensor {
 /// Modulation and phase stepping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modulation {
-    /// The row of [`SCHEMES`].
-    pub scheme: &'static Scheme,
+    /// How a phase is made of the raw frames: a row of [`SCHEMES`], a DFT, or a row of the specification's own.
+    pub scheme: Scheme,
     /// Modulation frequency, Hz, 10 kHz to 10 GHz.
     pub frequency_hz: f64,
     /// Raw frames accumulated for one phase step, 1 to 256.
     pub frames_per_step: usize,
+    /// The phase steps in the order in which a set has them, each once; `None` where it is ascending.
+    pub order: Option<Vec<usize>>,
+    /// Bits of a phase step as a fraction of a turn, for the modulation hardware, 2 to 24.
+    pub phase_step_bits: u32,
 }
 
 /// The output words.
@@ -82,6 +108,8 @@ pub struct Specification {
     pub cordic: Cordic,
     /// The output words.
     pub output: Output,
+    /// The register block.
+    pub registers: RegisterBlock,
 }
 
 /// A specification that works, and all that follows from it.
@@ -113,7 +141,10 @@ impl Pipeline {
     pub fn named(name: &str) -> Result<Self> {
         match PRESETS.iter().find(|preset| preset.name == name) {
             Some(preset) => Self::parse(preset.name, preset.text),
-            None => file::read(name),
+            None => {
+                let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+                Self::parse(name, &file::read(name, &names.join(", "))?)
+            }
         }
     }
 
@@ -148,6 +179,13 @@ impl Pipeline {
     /// The specification as the text of a TOML file, from which it can be read again.
     pub fn to_toml(&self) -> String {
         file::write(&self.specification)
+    }
+
+    /// The specification's hash: the first 64 bits of the SHA-256 of [`Pipeline::to_toml`]'s text, which is what
+    /// `vuris explain --spec … --toml` prints, highest bit first.
+    pub fn hash(&self) -> u64 {
+        let digest = Sha256::digest(self.to_toml().as_bytes());
+        digest.iter().take(8).fold(0, |hash, &byte| hash << 8 | u64::from(byte))
     }
 
     /// The sensor's pixels.

@@ -16,10 +16,19 @@ pub const PRESETS: &[Preset] = &[
     Preset { name: "vuris-four-frame", text: include_str!("presets/vuris-four-frame.toml") },
 ];
 
+/// Presets of the angle unit by itself.
+pub const ANGLE_PRESETS: &[Preset] = &[
+    Preset { name: "angle-16", text: include_str!("presets/angle-16.toml") },
+    Preset { name: "angle-16-folded", text: include_str!("presets/angle-16-folded.toml") },
+    Preset { name: "angle-16-iterative", text: include_str!("presets/angle-16-iterative.toml") },
+    Preset { name: "angle-16-poly", text: include_str!("presets/angle-16-poly.toml") },
+    Preset { name: "angle-16-poly-memory", text: include_str!("presets/angle-16-poly-memory.toml") },
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spec::Pipeline;
+    use crate::spec::{AngleCore, Pipeline};
 
     #[test]
     fn every_preset_works_and_survives_writing_and_reading() {
@@ -27,6 +36,16 @@ mod tests {
             let pipeline = Pipeline::named(preset.name).unwrap();
             assert_eq!(pipeline.name, preset.name);
             assert_eq!(Pipeline::parse("again", &pipeline.to_toml()).unwrap(), pipeline);
+        }
+    }
+
+    #[test]
+    fn every_angle_preset_works_is_faithful_and_survives_writing_and_reading() {
+        for preset in ANGLE_PRESETS {
+            let core = AngleCore::parse(preset.name, preset.text).unwrap();
+            assert_eq!(core.name, preset.name);
+            assert_eq!(AngleCore::parse("again", &core.to_toml()).unwrap(), core);
+            assert!(core.unit.budget().phase_codes() < 1.0, "{}", preset.name);
         }
     }
 }

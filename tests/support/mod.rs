@@ -6,13 +6,15 @@
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
 use vuris::spec::{
-    AngleSpecification, AngleUnit, Cordic, Modulation, Output, Pipeline, Rounding, SCHEMES, Sensor,
-    Specification, Throughput,
+    AngleSpecification, AngleUnit, Atan, Cordic, Irrational, Modulation, Output, Pipeline, RegisterBlock,
+    Rounding, Row, SCHEMES, Scheme, Sensor, Specification, StepAngle, Throughput, normalised_order,
 };
 use vuris::units::unambiguous_range_m;
 
@@ -24,6 +26,30 @@ pub fn small(preset: &str, change: impl FnOnce(&mut Specification)) -> Pipeline 
         change(specification);
     };
     Pipeline::named(preset).unwrap().adapted("small", small).unwrap()
+}
+
+/// A command of the program `name`, which `scripts/hdl-tools.sh` installs with the set `set`, in `folder`. Nothing of a make or a
+/// user's settings reaches it.
+pub fn hdl_tool(name: &str, set: &str, folder: &Path) -> Command {
+    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join(".tools/hdl/bin").join(name);
+    assert!(
+        program.is_file(),
+        "{} is not here: bash scripts/hdl-tools.sh {set}, or `make setup`",
+        program.display()
+    );
+    let mut command = Command::new(program);
+    command.current_dir(folder).env("HOME", folder).stdin(Stdio::null());
+    for name in ["VERILATOR_ROOT", "MAKEFLAGS", "MFLAGS", "XDG_CONFIG_HOME", "XDG_DATA_HOME"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// Runs `command`: whether it succeeded, and all that it said.
+pub fn said(command: &mut Command) -> (bool, String) {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    (output.status.success(), text.into_owned())
 }
 
 /// Does `work` for every item, two at a time; the results in the items' order.
@@ -60,6 +86,60 @@ pub fn everything(pipeline: &Pipeline, seed: u64) -> Scenario {
     scenario
 }
 
+/// The steps of `scheme` in an order that `seed` gives; ascending for every fourth.
+pub fn shuffled(scheme: &Scheme, seed: u64) -> Option<Vec<usize>> {
+    let mut order: Vec<usize> = (0..scheme.steps()).collect();
+    if !seed.is_multiple_of(4) {
+        order.sort_by_key(|&step| (seed ^ (step as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    }
+    normalised_order(scheme, order)
+}
+
+/// Name, step angles, weights of in-phase and quadrature sum for I_n = A cos(angle_n - phi) + B, and the irrational.
+type PublishedRow = (&'static str, &'static str, &'static [i64], &'static [i64], Irrational);
+
+/// Rows of published algorithms that are not built in.
+pub const ROWS: [PublishedRow; 5] = [
+    // tan phi = 2 (I4 - I2) / (2 I3 - I1 - I5) with the phase at the middle frame.
+    ("hariharan", "-1/2 -1/4 0 1/4 1/2", &[-1, 0, 2, 0, -1], &[0, -2, 0, 2, 0], Irrational::One),
+    ("schmit-creath", "-1/2 -1/4 0 1/4 1/2", &[-1, -2, 6, -2, -1], &[1, -4, 0, 4, -1], Irrational::One),
+    (
+        "de-groot",
+        "-3/4 -1/2 -1/4 0 1/4 1/2 3/4",
+        &[0, -4, 0, 8, 0, -4, 0],
+        &[1, 0, -7, 0, 7, 0, -1],
+        Irrational::One,
+    ),
+    // N + 1 frames with N = 3 and 4 (Surrel 1993): half of the first and of the last, and a cotangent.
+    ("three-plus-one", "0 1/3 2/3 1", &[3, -3, -3, 3], &[1, 3, -3, -1], Irrational::Sqrt3),
+    ("four-plus-one", "0 1/4 1/2 3/4 1", &[1, 0, -2, 0, 1], &[0, 2, 0, -2, 0], Irrational::One),
+];
+
+/// The scheme of a row of [`ROWS`], all its weights times `factor`.
+pub fn row(number: usize, factor: i64) -> Scheme {
+    let (name, angles, in_phase, quadrature, irrational) = ROWS[number];
+    let times = |weights: &[i64]| weights.iter().map(|weight| weight * factor).collect();
+    let row = Row {
+        name: name.to_owned(),
+        angles: angles.split(' ').map(|angle| StepAngle::parse(angle).unwrap()).collect(),
+        in_phase: times(in_phase),
+        quadrature: times(quadrature),
+        offset: None,
+        irrational,
+        reference: "test".to_owned(),
+    };
+    Scheme::of_row("test", row).unwrap()
+}
+
+/// Schemes of every kind: named, DFTs, rows with small weights and with wide ones.
+fn schemes() -> impl Strategy<Value = Scheme> {
+    prop_oneof![
+        (0..SCHEMES.len()).prop_map(|number| SCHEMES[number].clone()),
+        (3..=9_usize, 4..=18_u32).prop_map(|(frames, bits)| Scheme::dft(frames, bits).unwrap()),
+        (0..ROWS.len(), 1..=40_i64).prop_map(|(number, factor)| row(number, factor)),
+    ]
+}
+
 /// CORDICs of every architecture.
 fn cordics() -> impl Strategy<Value = Cordic> {
     // Every fourth one iteration a clock, the others a vector every few clocks.
@@ -92,6 +172,7 @@ pub fn angle_units() -> impl Strategy<Value = AngleUnit> {
             metric: if three { 3 } else { 1 },
             phase_bits,
             length_bits: if kind == 0 { 0 } else { length_bits },
+            atan: Atan::Cordic,
             cordic: Cordic {
                 iterations: cordic.iterations.min(phase_bits + cordic.vector_guard_bits),
                 ..cordic
@@ -115,14 +196,18 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
             }
         },
     );
-    let modulation =
-        (0..SCHEMES.len(), 4.0..10.0_f64, 1..=3_usize).prop_map(|(scheme, decade, frames_per_step)| {
-            Modulation { scheme: &SCHEMES[scheme], frequency_hz: 10_f64.powf(decade), frames_per_step }
-        });
+    let modulation = (schemes(), 4.0..10.0_f64, 1..=3_usize, any::<u64>(), 2..=24_u32).prop_map(|row| {
+        let (scheme, decade, frames_per_step, order, phase_step_bits) = row;
+        let order = shuffled(&scheme, order);
+        let frequency_hz = 10_f64.powf(decade);
+        Modulation { scheme, frequency_hz, frames_per_step, order, phase_step_bits }
+    });
+    let registers = (any::<bool>(), any::<u32>())
+        .prop_map(|(axi4_lite, frequency_factor)| RegisterBlock { axi4_lite, frequency_factor });
     // Bits of the distance, and the least amplitude as a part of the full scale (or none).
     let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64, 0..5_u32);
-    (sensor, modulation, cordics(), output)
-        .prop_map(|(sensor, modulation, cordic, output)| {
+    (sensor, modulation, cordics(), output, registers)
+        .prop_map(|(sensor, modulation, cordic, output, registers)| {
             let (
                 phase_bits,
                 amplitude_fraction_bits,
@@ -148,6 +233,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
                     minimum_amplitude_dn: if amplitude { weakest.max(0.0) * full_scale_dn } else { 0.0 },
                 },
                 modulation,
+                registers,
             }
         })
         .prop_filter("it is accepted", |specification| Pipeline::new("any", specification.clone()).is_ok())

@@ -17,6 +17,9 @@ pub struct AngleBudget {
 impl AngleBudget {
     /// Derives the bounds of `unit`.
     pub(super) fn new(unit: &AngleUnit) -> Self {
+        if let Some(poly) = &unit.poly {
+            return Self { phase: poly.budget(), length_relative: 0.0, phase_bits: unit.phase_bits };
+        }
         let codes_a_rad = f64::from(unit.phase_bits).exp2() / TAU;
         let walk = Walk::new(unit);
         let guard = f64::from(unit.cordic.angle_guard_bits).exp2();

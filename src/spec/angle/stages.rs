@@ -48,6 +48,10 @@ impl Stages {
         let x_fraction = |i: u32| if scaled || *length_bits > 0 { full } else { full - i.min(x_iterations) };
         let x_words = (0..iterations).map(|i| {
             let unit = f64::from(x_fraction(i)).exp2();
+            if i == 0 && !scaled {
+                // Two magnitudes below 2 and a one, or four and three ones.
+                return StageWord { bits: full + if *metric == 1 { 2 } else { 3 }, fraction_bits: full };
+            }
             // Every iteration rounds up by at most a unit of y's and a half of its own.
             let largest =
                 x_reach[i as usize] * unit + f64::from(4 + 2 * i.min(x_iterations) + 2 * *metric as u32);

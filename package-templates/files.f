@@ -1,0 +1,5 @@
+// [[ mark ]]
+// [[ purpose ]]
+[%- for path in paths %]
+[[ path ]]
+[%- endfor %]
