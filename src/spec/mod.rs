@@ -93,6 +93,17 @@ pub struct Output {
     pub distance_unit_m: f64,
     /// A pixel of less amplitude is marked invalid, DN.
     pub minimum_amplitude_dn: f64,
+    /// What the constant factors of amplitude, offset and distance are made of.
+    pub multipliers: Multipliers,
+}
+
+/// What a multiplication by a constant is made of. The products are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Multipliers {
+    /// Left to synthesis as a product: DSP blocks, where the device has them.
+    Dsp,
+    /// Shifts and adds, one for each digit of the factor's canonical signed-digit form that is not 0: no DSP block.
+    ShiftAdd,
 }
 
 /// What a user specifies.

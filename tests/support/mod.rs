@@ -13,8 +13,9 @@ use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
 use vuris::spec::{
-    AngleSpecification, AngleUnit, Atan, Cordic, Irrational, Modulation, Output, Pipeline, RegisterBlock,
-    Rounding, Row, SCHEMES, Scheme, Sensor, Specification, StepAngle, Throughput, normalised_order,
+    AngleSpecification, AngleUnit, Atan, Cordic, Irrational, Modulation, Multipliers, Output, Pipeline,
+    RegisterBlock, Rounding, Row, SCHEMES, Scheme, Sensor, Specification, StepAngle, Throughput,
+    normalised_order,
 };
 use vuris::units::unambiguous_range_m;
 
@@ -230,6 +231,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
                     amplitude_fraction_bits,
                     offset_fraction_bits,
                     distance_unit_m: range_m / distance_bits.exp2(),
+                    multipliers: if phase_bits % 2 == 0 { Multipliers::Dsp } else { Multipliers::ShiftAdd },
                     minimum_amplitude_dn: if amplitude { weakest.max(0.0) * full_scale_dn } else { 0.0 },
                 },
                 modulation,
