@@ -17,19 +17,66 @@ pub struct Vector {
     pub name: &'static str,
     word: fn(&Pipeline) -> Word,
     value: fn(&PixelRecord) -> i64,
+    /// Whether a pipeline has it.
+    belongs: fn(&Pipeline) -> bool,
+}
+
+fn always(_: &Pipeline) -> bool {
+    true
+}
+
+fn unwraps(pipeline: &Pipeline) -> bool {
+    pipeline.derived().unwrapper.is_some()
+}
+
+/// The vectors of `pipeline`.
+fn vectors(pipeline: &Pipeline) -> Vec<&'static Vector> {
+    VECTORS.iter().filter(|vector| (vector.belongs)(pipeline)).collect()
 }
 
 /// All vectors.
 pub const VECTORS: &[Vector] = &[
-    Vector { name: "in_phase", word: |p| p.derived().in_phase, value: |r| r.sums.in_phase },
-    Vector { name: "quadrature", word: |p| p.derived().quadrature, value: |r| r.sums.quadrature },
-    Vector { name: "offset_sum", word: |p| p.derived().offset_sum, value: |r| r.sums.offset },
-    Vector { name: "saturated", word: |_| Word::unsigned(1), value: |r| r.sums.saturated.into() },
-    Vector { name: "phase", word: |p| p.derived().phase, value: |r| r.phase },
-    Vector { name: "amplitude", word: |p| p.derived().amplitude, value: |r| r.amplitude },
-    Vector { name: "offset", word: |p| p.derived().offset, value: |r| r.offset },
-    Vector { name: "distance", word: |p| p.derived().distance, value: |r| r.distance },
-    Vector { name: "usable", word: |_| Word::unsigned(1), value: |r| r.valid.into() },
+    Vector { name: "in_phase", word: |p| p.derived().in_phase, value: |r| r.sums.in_phase, belongs: always },
+    Vector {
+        name: "quadrature",
+        word: |p| p.derived().quadrature,
+        value: |r| r.sums.quadrature,
+        belongs: always,
+    },
+    Vector {
+        name: "offset_sum",
+        word: |p| p.derived().offset_sum,
+        value: |r| r.sums.offset,
+        belongs: always,
+    },
+    Vector {
+        name: "saturated",
+        word: |_| Word::unsigned(1),
+        value: |r| r.sums.saturated.into(),
+        belongs: always,
+    },
+    Vector { name: "phase", word: |p| p.derived().phase, value: |r| r.phase, belongs: always },
+    Vector {
+        name: "amplitude",
+        word: |p| p.derived().amplitude,
+        value: |r| r.amplitude,
+        belongs: |p| p.output.amplitude,
+    },
+    Vector { name: "offset", word: |p| p.derived().offset, value: |r| r.offset, belongs: always },
+    Vector { name: "distance", word: |p| p.derived().distance, value: |r| r.distance, belongs: always },
+    Vector { name: "usable", word: |_| Word::unsigned(1), value: |r| r.valid.into(), belongs: always },
+    Vector {
+        name: "unwrapped",
+        word: |p| p.derived().unwrapper.as_ref().map_or(Word::unsigned(1), |unwrapper| unwrapper.unwrapped),
+        value: |r| r.unwrapped,
+        belongs: unwraps,
+    },
+    Vector {
+        name: "unambiguous",
+        word: |_| Word::unsigned(1),
+        value: |r| r.unambiguous.into(),
+        belongs: unwraps,
+    },
 ];
 
 /// A place in the core where every pixel of every set passes once.
@@ -67,6 +114,8 @@ pub const STAGES: &[Stage] = &[
             ("offset", "dut.result_offset"),
             ("distance", "dut.result_distance"),
             ("usable", "dut.result_usable"),
+            ("unwrapped", "dut.result_unwrapped"),
+            ("unambiguous", "dut.result_unambiguous"),
         ],
     },
     Stage {
@@ -79,6 +128,8 @@ pub const STAGES: &[Stage] = &[
             ("distance", ""),
             ("usable", ""),
             ("saturated", ""),
+            ("unwrapped", ""),
+            ("unambiguous", ""),
         ],
     },
 ];
@@ -105,21 +156,21 @@ const TAP_BITS: usize = 64;
 
 /// Every channel of `pipeline`'s benches.
 pub fn channels(pipeline: &Pipeline) -> Vec<Channel> {
-    let fields = result_fields(pipeline);
+    let (fields, vectors) = (result_fields(pipeline), vectors(pipeline));
     let mut channels = Vec::new();
     for (stage, Stage { name, probes, .. }) in STAGES.iter().enumerate() {
         for &(vector, wire) in *probes {
+            let Some(row) = vectors.iter().find(|row| row.name == vector) else { continue };
             let field = fields.iter().find(|field| field.name == vector);
             let probe = match (wire, field) {
                 ("", Some(field)) => format!("m_axis_tdata[{} +: {}]", field.low, field.bits),
                 _ => wire.to_owned(),
             };
-            let word = VECTORS.iter().find(|row| row.name == vector).map(|row| (row.word)(pipeline));
             channels.push(Channel {
                 name: format!("{name}.{vector}"),
                 stage,
                 vector,
-                word: word.expect("every probe names a vector"),
+                word: (row.word)(pipeline),
                 probe,
                 low: channels.len() * TAP_BITS,
             });
@@ -181,6 +232,9 @@ struct Bench {
     pixels: usize,
     width: usize,
     silence: u32,
+    /// Bits of `s_axis_tuser`, and of a line of the stimulus.
+    user_bits: u32,
+    stimulus_bits: u32,
     sample_bus: u32,
     result_bits: u32,
     padding: String,
@@ -215,7 +269,7 @@ fn padding(pipeline: &Pipeline) -> String {
 
 fn bench(source: &Source, golden: &Golden) -> Bench {
     let pipeline = source.pipeline;
-    let channels = channels(pipeline);
+    let (channels, own) = (channels(pipeline), vectors(pipeline));
     let stages = STAGES
         .iter()
         .enumerate()
@@ -230,7 +284,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
                     name: channel.name.clone(),
                     stage: channel.stage,
                     vector: channel.vector,
-                    vector_number: VECTORS.iter().position(|row| row.name == channel.vector).unwrap_or(0),
+                    vector_number: own.iter().position(|row| row.name == channel.vector).unwrap_or(0),
                     bits: channel.word.bits,
                     spare_bits: TAP_BITS as u32 - channel.word.bits,
                     probe: channel.probe.clone(),
@@ -239,7 +293,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
                 .collect(),
         })
         .collect();
-    let vectors = VECTORS
+    let vectors = own
         .iter()
         .map(|vector| {
             let word = (vector.word)(pipeline);
@@ -274,10 +328,17 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
         pixels: pipeline.geometry().pixels(),
         width: pipeline.sensor.width,
         silence: pipeline.sensor.line_blanking_clocks,
+        user_bits: if unwraps(pipeline) { 3 } else { 2 },
+        stimulus_bits: stimulus_bits(pipeline),
         sample_bus: pipeline.derived().sample.bits.next_multiple_of(8),
         result_bits: result_bits(pipeline),
         padding: padding(pipeline),
     }
+}
+
+/// Bits of a line of the stimulus: one more where a set has one of two frequencies.
+fn stimulus_bits(pipeline: &Pipeline) -> u32 {
+    if unwraps(pipeline) { 21 } else { 20 }
 }
 
 /// `{first of a set, phase step, its phase}`, as the benches have it.
@@ -329,14 +390,14 @@ fn padded(values: impl Iterator<Item = u64>, count: usize) -> impl Iterator<Item
 pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let pipeline = source.pipeline;
     let note = |what: String| format!("Generated by `vuris generate --spec {}`: {what}", source.spec);
-    let stimulus_note = note(
-        "{operation, end of line, start of set, start of frame, code[15:0]}; 9nnnn a pause of n clocks, a0000 reset, b0000 rest, c0000 access"
-            .to_owned(),
-    );
+    let frequency = if unwraps(pipeline) { "second frequency, " } else { "" };
+    let stimulus_note = note(format!(
+        "{{{frequency}operation, end of line, start of set, start of frame, code[15:0]}}; 9nnnn a pause of n clocks, a0000 reset, b0000 rest, c0000 access"
+    ));
     let stimulus = golden.stimulus.iter().map(|&StimulusWord(word)| u64::from(word));
     let epochs = golden.epochs.iter().flat_map(|epoch| [epoch.records as u64, epoch.announcements as u64]);
     let mut artifacts = vec![
-        Artifact::new("vectors/stimulus.hex", hex(&stimulus_note, 20, stimulus)),
+        Artifact::new("vectors/stimulus.hex", hex(&stimulus_note, stimulus_bits(pipeline), stimulus)),
         Artifact::new(
             "vectors/epochs.hex",
             hex(
@@ -371,7 +432,7 @@ pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
         artifacts
             .push(Artifact::new("vectors/accesses.hex", hex(&note, 32, padded(words, GoldenAccess::WORDS))));
     }
-    for vector in VECTORS {
+    for vector in vectors(pipeline) {
         let word = (vector.word)(pipeline);
         let kind = if word.signed { "signed" } else { "unsigned" };
         let text = hex(

@@ -4,7 +4,7 @@ use super::angle::{read_cordic, write_cordic};
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
     Modulation, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order, refused,
-    scheme_file, sequence,
+    scheme_file, sequence, unwrapping,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -38,7 +38,7 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     let table = fields::parse(source, text)?;
     let top = Fields::top(source, &table);
-    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers"])?;
+    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers", "unwrapping"])?;
     let expected_format = format!("\"{FORMAT}\"");
     if top.text("format", &expected_format)? != FORMAT {
         return Err(top.refuse("format", &expected_format));
@@ -97,7 +97,8 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
         minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
     };
-    Ok(Specification { name, sensor, modulation, cordic, output, registers: registers(&top)? })
+    let (registers, unwrapping) = (registers(&top)?, unwrapping::read(&top)?);
+    Ok(Specification { name, sensor, modulation, cordic, output, registers, unwrapping })
 }
 
 /// The order of the phase steps, where there is one; [`check`] sees whether it is the scheme's.
@@ -179,7 +180,7 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
 
 /// The text of a file that reads as `specification`.
 pub(super) fn write(specification: &Specification) -> String {
-    let Specification { name, sensor, modulation, cordic, output, registers } = specification;
+    let Specification { name, sensor, modulation, cordic, output, registers, unwrapping } = specification;
     format!(
         "format = \"{FORMAT}\"\n\
          name = \"{name}\"\n\
@@ -192,7 +193,7 @@ pub(super) fn write(specification: &Specification) -> String {
          phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
          distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
          \n[registers]\n\
-         axi4_lite = {}\nfrequency_factor = {}\n",
+         axi4_lite = {}\nfrequency_factor = {}\n{}",
         sensor.width,
         sensor.height,
         sensor.adc_bits,
@@ -213,5 +214,6 @@ pub(super) fn write(specification: &Specification) -> String {
         output.minimum_amplitude_dn,
         registers.axi4_lite,
         registers.frequency_factor,
+        unwrapping.as_ref().map(unwrapping::write).unwrap_or_default(),
     )
 }
