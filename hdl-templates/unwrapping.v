@@ -43,22 +43,16 @@ module [[ prefix ]]_unwrapping #(
   reg                     usable_q;
   reg                     second_q;
   reg                     partner_q;
-  wire [PHASE_BITS-1:0]   kept_phase;
-  wire                    kept_usable;
+  reg  [PHASE_BITS:0]     memory [0:PIXELS-1];  // {usable, phase} of the set before
+  reg  [PHASE_BITS:0]     kept_q;
+  wire [PHASE_BITS-1:0]   kept_phase  = kept_q[PHASE_BITS-1:0];
+  wire                    kept_usable = kept_q[PHASE_BITS];
 
-  [[ prefix ]]_sum_memory #(
-    .WORD_BITS   (PHASE_BITS + 1),
-    .ADDRESS_BITS(ADDRESS_BITS),
-    .WORDS       (PIXELS)
-  ) u_phase_memory (
-    .clk_i          (clk_i),
-    .write_i        (valid_q && advance_i),
-    .write_address_i(address_q),
-    .write_data_i   ({usable_q, phase_q}),
-    .read_i         (valid_i && advance_i),
-    .read_address_i (address),
-    .read_data_o    ({kept_usable, kept_phase})
-  );
+  // The form that synthesis infers as block RAM; a word is never read in the clock that writes it.
+  always @(posedge clk_i) begin
+    if (valid_q && advance_i) memory[address_q] <= {usable_q, phase_q};
+    if (valid_i && advance_i) kept_q <= memory[address];
+  end
 
   always @(posedge clk_i) begin
     if (advance_i) begin

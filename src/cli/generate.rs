@@ -4,7 +4,7 @@ use super::print::{counted, say};
 use super::{agreement, golden_of_preset, progress};
 use crate::artifact::{self, Difference};
 use crate::hdl::{Source, all_artifacts, angle_core_artifacts, angle_stimulus};
-use crate::package::package_artifacts;
+use crate::package::{angle_package_artifacts, package_artifacts};
 use crate::problem::Result;
 use crate::spec::Design;
 use clap::Args;
@@ -58,7 +58,9 @@ impl Generate {
             }
             Design::Angle(core) => {
                 let vectors = angle_stimulus(&core.unit, ANGLE_SEED);
-                (core.name.clone(), angle_core_artifacts(&core, &spec, &vectors))
+                let mut artifacts = angle_core_artifacts(&core, &spec, &vectors);
+                artifacts.extend(angle_package_artifacts(&core, &spec, &artifacts));
+                (core.name.clone(), artifacts)
             }
         };
         if !self.check {

@@ -29,9 +29,9 @@ fn unwraps(pipeline: &Pipeline) -> bool {
     pipeline.derived().unwrapper.is_some()
 }
 
-/// The vectors of `pipeline`.
-fn vectors(pipeline: &Pipeline) -> Vec<&'static Vector> {
-    VECTORS.iter().filter(|vector| (vector.belongs)(pipeline)).collect()
+/// The vectors of `pipeline`'s benches.
+fn vectors(pipeline: &Pipeline) -> impl Iterator<Item = &'static Vector> {
+    VECTORS.iter().filter(|vector| (vector.belongs)(pipeline))
 }
 
 /// All vectors.
@@ -156,21 +156,21 @@ const TAP_BITS: usize = 64;
 
 /// Every channel of `pipeline`'s benches.
 pub fn channels(pipeline: &Pipeline) -> Vec<Channel> {
-    let (fields, vectors) = (result_fields(pipeline), vectors(pipeline));
+    let fields = result_fields(pipeline);
     let mut channels = Vec::new();
     for (stage, Stage { name, probes, .. }) in STAGES.iter().enumerate() {
-        for &(vector, wire) in *probes {
-            let Some(row) = vectors.iter().find(|row| row.name == vector) else { continue };
-            let field = fields.iter().find(|field| field.name == vector);
+        for &(probed, wire) in *probes {
+            let Some(vector) = vectors(pipeline).find(|vector| vector.name == probed) else { continue };
+            let field = fields.iter().find(|field| field.name == probed);
             let probe = match (wire, field) {
                 ("", Some(field)) => format!("m_axis_tdata[{} +: {}]", field.low, field.bits),
                 _ => wire.to_owned(),
             };
             channels.push(Channel {
-                name: format!("{name}.{vector}"),
+                name: format!("{name}.{probed}"),
                 stage,
-                vector,
-                word: (row.word)(pipeline),
+                vector: vector.name,
+                word: (vector.word)(pipeline),
                 probe,
                 low: channels.len() * TAP_BITS,
             });
@@ -269,7 +269,7 @@ fn padding(pipeline: &Pipeline) -> String {
 
 fn bench(source: &Source, golden: &Golden) -> Bench {
     let pipeline = source.pipeline;
-    let (channels, own) = (channels(pipeline), vectors(pipeline));
+    let channels = channels(pipeline);
     let stages = STAGES
         .iter()
         .enumerate()
@@ -284,7 +284,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
                     name: channel.name.clone(),
                     stage: channel.stage,
                     vector: channel.vector,
-                    vector_number: own.iter().position(|row| row.name == channel.vector).unwrap_or(0),
+                    vector_number: vectors(pipeline).position(|row| row.name == channel.vector).unwrap_or(0),
                     bits: channel.word.bits,
                     spare_bits: TAP_BITS as u32 - channel.word.bits,
                     probe: channel.probe.clone(),
@@ -293,8 +293,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
                 .collect(),
         })
         .collect();
-    let vectors = own
-        .iter()
+    let vectors = vectors(pipeline)
         .map(|vector| {
             let word = (vector.word)(pipeline);
             VectorRow { name: vector.name, bits: word.bits }
@@ -446,4 +445,21 @@ pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
         artifacts.push(Artifact::new(format!("vectors/{}.hex", vector.name), text));
     }
     artifacts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_probe_names_a_vector_and_only_an_amplitude_that_nobody_asks_for_is_left_out() {
+        let probes: Vec<&str> =
+            STAGES.iter().flat_map(|stage| stage.probes).map(|&(probed, _)| probed).collect();
+        assert!(probes.iter().all(|probed| VECTORS.iter().any(|vector| vector.name == *probed)));
+        let pipeline = Pipeline::named("vuris").unwrap();
+        assert_eq!(channels(&pipeline).iter().map(|channel| channel.vector).collect::<Vec<_>>(), probes);
+        let phase_only = pipeline.adapted("test", |s| s.output.amplitude = false).unwrap();
+        let left: Vec<&str> = probes.into_iter().filter(|probed| *probed != "amplitude").collect();
+        assert_eq!(channels(&phase_only).iter().map(|channel| channel.vector).collect::<Vec<_>>(), left);
+    }
 }

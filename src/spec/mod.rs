@@ -19,6 +19,7 @@ mod scheme;
 mod scheme_file;
 mod sequence;
 mod step_angle;
+mod storage;
 mod unwrapping;
 mod word;
 
@@ -41,6 +42,7 @@ pub use row::{Row, offset_weights};
 pub use scheme::{Irrational, SCHEMES, Scheme, SchemeOrigin, scheme, scheme_names};
 pub use sequence::normalised_order;
 pub use step_angle::StepAngle;
+pub use storage::{Storage, StoredSum};
 pub use unwrapping::{SHARE_BITS, Unwrapper, Unwrapping};
 pub use word::Word;
 
