@@ -8,7 +8,7 @@
 [%- endfor %]
 `default_nettype none
 module [[ prefix ]]_distance #(
-  parameter PHASE_BITS    = [[ phase_bits ]],  // phase, in turns / 2^[[ phase_bits ]]
+  parameter PHASE_BITS    = [[ phase_bits ]],  // phase, in turns / [% if power %]2^[[ phase_bits ]][% else %][[ turn ]][% endif %]
   parameter FACTOR_SHIFT  = [[ factor_shift ]],  // fraction bits of the factor
   parameter DISTANCE_BITS = [[ distance_bits ]]   // distance, unsigned
 ) (

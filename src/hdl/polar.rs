@@ -163,11 +163,13 @@ struct Distance {
     prefix: String,
     range_m: String,
     frequency_hz: f64,
+    turn: i64,
     unit_m: f64,
     multiplier: i64,
     factor_shift: u32,
     rows: Vec<String>,
     phase_bits: u32,
+    power: bool,
     distance_bits: u32,
     product: String,
 }
@@ -176,23 +178,31 @@ pub(super) fn distance(source: &Source, banner: String) -> askama::Result<String
     let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
     let factor = derived.distance_factor;
     let product_bits = derived.distance.bits + factor.shift;
-    let quarter = 1 << (derived.phase.bits - 2);
-    let rows = [1, quarter, derived.phase.max()]
+    let (phase, times) = match &derived.unwrapper {
+        None => (derived.phase, 1),
+        Some(unwrapper) => (unwrapper.unwrapped, unwrapper.ratio[0]),
+    };
+    let turn = derived.unwrapper.as_ref().map_or(phase.max() + 1, |unwrapper| unwrapper.codes_a_turn);
+    let quarter = turn / 4;
+    let frequency_hz = pipeline.modulation.frequency_hz / times as f64;
+    let rows = [1, quarter, turn - 1]
         .map(|phase| vec![phase.to_string(), model::distance(pipeline, phase).to_string()]);
     Distance {
         banner,
         prefix: pipeline.prefix(),
-        range_m: format!("{:.6}", crate::units::unambiguous_range_m(pipeline.modulation.frequency_hz)),
-        frequency_hz: pipeline.modulation.frequency_hz,
+        range_m: format!("{:.6}", crate::units::unambiguous_range_m(frequency_hz)),
+        frequency_hz,
+        turn,
         unit_m: pipeline.output.distance_unit_m,
         multiplier: factor.multiplier,
         factor_shift: factor.shift,
         rows: table(&rows),
-        phase_bits: derived.phase.bits,
+        phase_bits: phase.bits,
+        power: turn == 1 << phase.bits,
         distance_bits: derived.distance.bits,
         product: product(
             pipeline.output.multipliers,
-            &zero_extended("phase_i", derived.phase.bits, product_bits),
+            &zero_extended("phase_i", phase.bits, product_bits),
             product_bits,
             factor.multiplier,
         ),

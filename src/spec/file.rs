@@ -4,7 +4,7 @@ use super::angle::{read_cordic, write_cordic};
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
     Modulation, Multipliers, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order,
-    refused, scheme_file, sequence,
+    refused, scheme_file, sequence, unwrapping,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -38,7 +38,7 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     let table = fields::parse(source, text)?;
     let top = Fields::top(source, &table);
-    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers"])?;
+    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers", "unwrapping"])?;
     let expected_format = format!("\"{FORMAT}\"");
     if top.text("format", &expected_format)? != FORMAT {
         return Err(top.refuse("format", &expected_format));
@@ -108,7 +108,8 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
         multipliers,
     };
-    Ok(Specification { name, sensor, modulation, cordic, output, registers: registers(&top)? })
+    let (registers, unwrapping) = (registers(&top)?, unwrapping::read(&top)?);
+    Ok(Specification { name, sensor, modulation, cordic, output, registers, unwrapping })
 }
 
 /// The order of the phase steps, where there is one; [`check`] sees whether it is the scheme's.
@@ -193,7 +194,7 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
 
 /// The text of a file that reads as `specification`.
 pub(super) fn write(specification: &Specification) -> String {
-    let Specification { name, sensor, modulation, cordic, output, registers } = specification;
+    let Specification { name, sensor, modulation, cordic, output, registers, unwrapping } = specification;
     format!(
         "format = \"{FORMAT}\"\n\
          name = \"{name}\"\n\
@@ -206,7 +207,7 @@ pub(super) fn write(specification: &Specification) -> String {
          phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
          distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\nmultipliers = \"{}\"\n\
          \n[registers]\n\
-         axi4_lite = {}\nfrequency_factor = {}\n",
+         axi4_lite = {}\nfrequency_factor = {}\n{}",
         sensor.width,
         sensor.height,
         sensor.adc_bits,
@@ -228,5 +229,6 @@ pub(super) fn write(specification: &Specification) -> String {
         MULTIPLIERS.iter().find(|row| row.1 == output.multipliers).map_or("", |row| row.0),
         registers.axi4_lite,
         registers.frequency_factor,
+        unwrapping.as_ref().map(unwrapping::write).unwrap_or_default(),
     )
 }

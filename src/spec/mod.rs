@@ -20,6 +20,7 @@ mod scheme_file;
 mod sequence;
 mod step_angle;
 mod storage;
+mod unwrapping;
 mod word;
 
 pub use angle::{
@@ -42,6 +43,7 @@ pub use scheme::{Irrational, SCHEMES, Scheme, SchemeOrigin, scheme, scheme_names
 pub use sequence::normalised_order;
 pub use step_angle::StepAngle;
 pub use storage::{Storage, StoredSum};
+pub use unwrapping::{SHARE_BITS, Unwrapper, Unwrapping};
 pub use word::Word;
 
 use crate::frames::Geometry;
@@ -121,6 +123,8 @@ pub struct Specification {
     pub output: Output,
     /// The register block.
     pub registers: RegisterBlock,
+    /// Unwrapping with a second modulation frequency, where there is one.
+    pub unwrapping: Option<Unwrapping>,
 }
 
 /// A specification that works, and all that follows from it.

@@ -222,6 +222,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
             let range_m = unambiguous_range_m(modulation.frequency_hz);
             let full_scale_dn = f64::from(sensor.adc_bits).exp2();
             Specification {
+                unwrapping: None,
                 name: "any".to_owned(),
                 sensor,
                 cordic: Cordic { iterations: cordic.iterations.min(most_iterations), ..cordic },
