@@ -137,6 +137,15 @@ impl<'a> Fields<'a> {
             .ok_or_else(|| self.refuse(field, expected))
     }
 
+    /// A list of whole numbers.
+    pub fn integers(&self, field: &str, expected: &str) -> Result<Vec<i64>> {
+        self.table
+            .get(field)
+            .and_then(Value::as_array)
+            .and_then(|values| values.iter().map(Value::as_integer).collect())
+            .ok_or_else(|| self.refuse(field, expected))
+    }
+
     /// A list of strings, empty where the field is absent.
     pub fn texts(&self, field: &str) -> Result<Vec<&'a str>> {
         let Some(value) = self.table.get(field) else { return Ok(Vec::new()) };
@@ -144,6 +153,11 @@ impl<'a> Fields<'a> {
             .as_array()
             .and_then(|values| values.iter().map(Value::as_str).collect())
             .ok_or_else(|| self.refuse(field, "a list of strings"))
+    }
+
+    /// Whether the field is a table.
+    pub fn is_table(&self, field: &str) -> bool {
+        self.table.get(field).is_some_and(Value::is_table)
     }
 
     /// Whether the field is there.

@@ -27,6 +27,7 @@
 //! | [`cosim`] | building and running the simulators, comparing stage by stage |
 //! | [`package`] | what surrounds the Verilog: FuseSoC package, lists, constraints, numbers for programs, diagrams, guide |
 //! | [`synthesis`] | area and clock frequency by real synthesis, and the gate on them |
+//! | [`proof`] | what the checks are worth: mutants of the RTL, coverage, formal proofs |
 //! | [`recording`] | the recording format, read and written |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
 //! | [`physics`] | the forward simulator of raw frames |
@@ -38,8 +39,8 @@
 //! # What is absent on purpose
 //! - **No floating point in [`model`]**, no I/O, nothing that can fail. Constants come from [`spec::exact`].
 //! - **[`model`] and [`physics`] never see each other**: they meet in frames. [`hdl`] never sees [`physics`].
-//! - **Only [`cli`], [`recording`], [`artifact`], [`cosim`], [`synthesis`] and the reading of a specification touch files or
-//!   processes**; only [`cli`] knows clap, only [`hdl`], [`package`] and [`report`] may know askama.
+//! - **Only [`cli`], [`recording`], [`artifact`], [`cosim`], [`proof`], [`synthesis`] and the reading of a specification touch
+//!   files or processes**; only [`cli`] knows clap, only [`hdl`], [`package`] and [`report`] may know askama.
 //!
 //! `tests/architecture.rs` asserts each of these sentences.
 
@@ -53,6 +54,7 @@ pub mod model;
 pub mod package;
 pub mod physics;
 pub mod problem;
+pub mod proof;
 pub mod ranging;
 pub mod recording;
 pub mod reference;

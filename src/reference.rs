@@ -1,7 +1,7 @@
 //! The reference in floating point: what a pipeline would give without words and rounding.
 //!
 //! For a set of frames I_n = A cos(n δ − φ) + B, the scheme's weights are applied to the mean of each step's frames in
-//! `f64`, √3 and the arc tangent being those of `f64`. Nothing of the hardware's arithmetic is used, so that a
+//! `f64`, √3, the arc tangent and a DFT's cosines and sines being those of `f64`. Nothing of the hardware's arithmetic is used, so that a
 //! disagreement beyond the error budget is a fault of one of the two.
 
 use crate::frames::RawSets;
@@ -45,8 +45,8 @@ pub fn reference_images(pipeline: &Pipeline, raw: &RawSets) -> Result<ReferenceI
             ))
             .remedy("adapt the pipeline to the recording"));
     }
-    let scheme = pipeline.modulation.scheme;
-    let factor = (scheme.irrational.squared() as f64).sqrt();
+    let scheme = &pipeline.modulation.scheme;
+    let coefficients = scheme.true_coefficients();
     let frames_per_step = pipeline.modulation.frames_per_step;
     let unambiguous_m = unambiguous_range_m(pipeline.modulation.frequency_hz);
     let pixels = raw.geometry().pixels();
@@ -68,12 +68,11 @@ pub fn reference_images(pipeline: &Pipeline, raw: &RawSets) -> Result<ReferenceI
                 let step = pipeline.modulation.step_at(place);
                 let sum: f64 = held.iter().map(|frame| f64::from(frame[pixel])).sum();
                 let mean = sum / frames_per_step as f64;
-                in_phase += scheme.in_phase[step] as f64 * mean;
-                quadrature += scheme.quadrature[step] as f64 * mean;
+                in_phase += coefficients[step].re * mean;
+                quadrature += coefficients[step].im * mean;
                 offset += scheme.offset[step] as f64 * mean;
             }
-            quadrature *= factor;
-            let amplitude_dn = in_phase.hypot(quadrature) / scheme.gain as f64;
+            let amplitude_dn = in_phase.hypot(quadrature) / scheme.gain;
             let phase_turns = turns(quadrature.atan2(in_phase));
             images.phase_turns.push(phase_turns);
             images.amplitude_dn.push(amplitude_dn);
@@ -157,7 +156,7 @@ mod tests {
                         specification.sensor.width = 12;
                         specification.sensor.height = 2;
                         specification.sensor.adc_bits = 16;
-                        specification.modulation.scheme = scheme;
+                        specification.modulation.scheme = scheme.clone();
                         specification.modulation.frames_per_step = frames_per_step;
                     })
                     .unwrap();
@@ -165,7 +164,7 @@ mod tests {
                 let codes = (0..scheme.steps() * frames_per_step)
                     .flat_map(|frame| (0..24).map(move |pixel| (frame, pixel)))
                     .map(|(frame, pixel)| {
-                        let step_rad = (frame / frames_per_step) as f64 * scheme.step_rad();
+                        let step_rad = scheme.angle_rad(frame / frames_per_step);
                         (20_000.0 * (step_rad - truth(pixel) * TAU).cos() + 30_000.0).round() as u32
                     })
                     .collect();

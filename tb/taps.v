@@ -43,6 +43,7 @@ module bench_taps (
   output wire        next_frame_strobe_o, // to the modulation hardware: what follows is new
   output wire [[ "[" ]][[ bench.announcement_bits - 1 ]]:0] next_frame_o,       // {first of a set, phase step, its phase}
   output wire [[ "[" ]][[ bench.stage_count - 1 ]]:0] strobe_o,         // a pixel passes the stage
+  output wire        padding_o,        // a bit between the result's fields is not 0
   output wire [[ "[" ]][[ bench.channel_bits - 1 ]]:0] values_o          // what it carries
 );
 
@@ -87,6 +88,8 @@ module bench_taps (
     .next_frame_step_o  (next_frame_o[ [[- bench.phase_step_bits ]] +: [[ bench.step_bits -]] ]),
     .next_frame_phase_o (next_frame_o[ [[- bench.phase_step_bits - 1 ]]:0])
   );
+
+  assign padding_o = |(m_axis_tdata & [[ bench.padding ]]);
 [% for stage in bench.stages %]
   // [[ stage.name ]]
   assign strobe_o[ [[- stage.number -]] ] = [[ stage.strobe ]];

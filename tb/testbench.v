@@ -388,6 +388,7 @@ module testbench;
           if (m_axis_tuser !== (pixel == 0)) report("output.first", record[ [[- stage.number -]] ], pixel == 0, m_axis_tuser);
           if (m_axis_tlast !== (pixel % WIDTH == WIDTH - 1))
             report("output.last", record[ [[- stage.number -]] ], pixel % WIDTH == WIDTH - 1, m_axis_tlast);
+          if ((m_axis_tdata & [[ bench.padding ]]) !== [[ bench.result_bits ]]'d0) report("output.padding", record[ [[- stage.number -]] ], 64'd0, 64'd1);
           compared = compared + 2;
           saturated_pixels = saturated_pixels + expected_saturated[record[ [[- stage.number -]] ]];
           if (pixel == 0) set_number = set_number + 1;
@@ -456,7 +457,7 @@ module testbench;
           exact    = 1'b1;
         end else if (next[19:16] == 4'ha) begin  // reset: what is still under way is lost
           word      = word + 1;
-          wait_for  = 4;
+          wait_for  = 1 + $unsigned($random(seed)) % 4;
           resetting = 1'b1;
           rst_n    <= 1'b0;
           for (stage = 0; stage < STAGES; stage = stage + 1) begin

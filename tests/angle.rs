@@ -2,11 +2,18 @@
 
 use std::f64::consts::TAU;
 use vuris::model::turn;
-use vuris::spec::{AngleSpecification, AngleUnit, Cordic, Rounding, Throughput};
+use vuris::spec::{AngleSpecification, AngleUnit, Atan, Cordic, Rounding, Throughput};
 
 fn unit(bits: u32, metric: i64, phase_bits: u32, cordic: Cordic, length_bits: u32) -> AngleUnit {
-    let specification =
-        AngleSpecification { x_bits: bits, y_bits: bits, metric, phase_bits, length_bits, cordic };
+    let specification = AngleSpecification {
+        x_bits: bits,
+        y_bits: bits,
+        metric,
+        phase_bits,
+        length_bits,
+        atan: Atan::Cordic,
+        cordic,
+    };
     AngleUnit::new("test", specification).unwrap()
 }
 

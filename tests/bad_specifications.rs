@@ -29,6 +29,9 @@ enum Change {
     Remove(&'static str),
     /// What is there gives place to a folder.
     Folder(&'static str),
+    /// The good specification's scheme becomes four frames as a row of its own, in which the first text is replaced by the
+    /// second.
+    Row(&'static str, &'static str),
     /// One after the other.
     All(&'static [Change]),
 }
@@ -61,6 +64,15 @@ impl Change {
                     remove(&folder.join(path));
                 }
                 fs::create_dir(folder.join(path)).unwrap();
+            }
+            Row(from, to) => {
+                let text = fs::read_to_string(folder.join(SPEC)).unwrap();
+                let row = "\n[modulation.scheme]\nname = \"own\"\nstep_turns = \"1/4\"\nin_phase = [1, 0, -1, 0]\n\
+                           quadrature = [0, 1, 0, -1]\noffset = [1, 1, 1, 1]\nirrational = \"1\"\n\n[cordic]";
+                assert!(row.contains(from), "the row has no {from:?}");
+                let text = text.replacen("scheme = \"wdft\"\n", "", 1);
+                fs::write(folder.join(SPEC), text.replacen("\n[cordic]", &row.replacen(from, to, 1), 1))
+                    .unwrap();
             }
             All(changes) => changes.iter().for_each(|change| change.apply(folder)),
         }
@@ -314,6 +326,144 @@ const SPECIFICATIONS: &[(&str, Change, &[&str])] = &[
         &["modulation.scheme = \"WDFT\"", "one of four_frame, wdft"],
     ),
     ("scheme a number", replace("\"wdft\"", "5"), &["modulation.scheme = 5", "one of four_frame, wdft"]),
+    (
+        "DFT without frames",
+        replace("\"wdft\"", "\"dft\"\ncoefficient_bits = 12"),
+        &["modulation.frames is missing", "3 to 64"],
+    ),
+    (
+        "DFT without bits",
+        replace("\"wdft\"", "\"dft\"\nframes = 7"),
+        &["modulation.coefficient_bits is missing", "4 to 18"],
+    ),
+    (
+        "DFT of two frames",
+        replace("\"wdft\"", "\"dft\"\nframes = 2\ncoefficient_bits = 12"),
+        &["modulation.frames = 2", "3 to 64"],
+    ),
+    (
+        "DFT of too many bits",
+        replace("\"wdft\"", "\"dft\"\nframes = 7\ncoefficient_bits = 19"),
+        &["modulation.coefficient_bits = 19", "4 to 18"],
+    ),
+    (
+        "frames of a named scheme",
+        replace("\"wdft\"", "\"wdft\"\nframes = 7"),
+        &["modulation.frames = 7", "scheme = \"dft\""],
+    ),
+    ("row without a name", Row("name = \"own\"", ""), &["modulation.scheme.name is missing"]),
+    (
+        "row with a name that is taken",
+        Row("\"own\"", "\"wdft\""),
+        &["modulation.scheme.name = \"wdft\"", "built in"],
+    ),
+    (
+        "row with a field of its own",
+        Row("name = \"own\"", "name = \"own\"\ngain = 2"),
+        &["modulation.scheme.gain is not", "in_phase"],
+    ),
+    (
+        "row with a fraction",
+        Row("[1, 0, -1, 0]", "[1, 0.5, -1, 0]"),
+        &["modulation.scheme.in_phase = ", "whole numbers"],
+    ),
+    (
+        "row of two",
+        Row("[1, 0, -1, 0]", "[1, -1]"),
+        &["modulation.scheme.in_phase = [1, -1]", "3 to 64 weights"],
+    ),
+    (
+        "row of unequal lengths",
+        Row("[0, 1, 0, -1]", "[0, 1, -1]"),
+        &["modulation.scheme.quadrature = [0, 1, -1]", "4 of them"],
+    ),
+    (
+        "row that sees constant light",
+        Row("[1, 0, -1, 0]", "[1, 1, -1, 0]"),
+        &["modulation.scheme.in_phase = [1, 1, -1, 0]", "add up to 0", "make 1"],
+    ),
+    (
+        "row with a large weight",
+        Row("[1, 0, -1, 0]", "[131072, 0, -131072, 0]"),
+        &["modulation.scheme.in_phase", "-131071 to 131071"],
+    ),
+    (
+        "row of the other sign",
+        Row("[0, 1, 0, -1]", "[0, -1, 0, 1]"),
+        &["modulation.scheme.quadrature = [0, -1, 0, 1]", "backwards", "negate the quadrature weights"],
+    ),
+    (
+        "row of another frame",
+        Row("step_turns = \"1/4\"", "step_turns = [\"1/4\", \"1/2\", \"3/4\", \"1\"]"),
+        &["modulation.scheme.quadrature", "turned by -0.2500 turn", "step_turns"],
+    ),
+    (
+        "row of two gains",
+        Row("[0, 1, 0, -1]", "[0, 2, 0, -2]"),
+        &["modulation.scheme.quadrature", "differ in gain", "irrational"],
+    ),
+    (
+        "row of a wrong irrational",
+        Row("irrational = \"1\"", "irrational = \"2\""),
+        &["modulation.scheme.irrational = \"2\"", "sqrt(3)"],
+    ),
+    (
+        "row with the irrational that it has not",
+        Row("irrational = \"1\"", "irrational = \"sqrt(3)\""),
+        &["modulation.scheme.quadrature", "differ in gain"],
+    ),
+    (
+        "row without steps",
+        Row("step_turns = \"1/4\"", ""),
+        &["modulation.scheme.step_turns is missing", "fraction of a turn"],
+    ),
+    (
+        "row of a decimal step",
+        Row("\"1/4\"", "0.25"),
+        &["modulation.scheme.step_turns = 0.25", "fraction of a turn"],
+    ),
+    (
+        "row of a step by zero",
+        Row("\"1/4\"", "\"1/0\""),
+        &["modulation.scheme.step_turns = \"1/0\"", "fraction of a turn"],
+    ),
+    (
+        "row of three angles",
+        Row("\"1/4\"", "[\"0\", \"1/4\", \"1/2\"]"),
+        &["modulation.scheme.step_turns = 3 angles", "4 of them"],
+    ),
+    (
+        "row whose offset sees the light's phase",
+        Row("offset = [1, 1, 1, 1]", "offset = [1, 1, 1, 0]"),
+        &["modulation.scheme.offset = [1, 1, 1, 0]", "leak"],
+    ),
+    (
+        "row with a negative offset weight",
+        Row("offset = [1, 1, 1, 1]", "offset = [2, -1, 2, -1]"),
+        &["modulation.scheme.offset = [2, -1, 2, -1]", "from 0"],
+    ),
+    (
+        "row without any offset",
+        All(&[
+            Row("offset = [1, 1, 1, 1]\n", ""),
+            Replace(SPEC, "[1, 0, -1, 0]", "[-29289, 100000, -70711]"),
+            Replace(SPEC, "[0, 1, 0, -1]", "[-70711, 100000, -29289]"),
+            Replace(SPEC, "\"1/4\"", "[\"0\", \"1/8\", \"1/4\"]"),
+        ]),
+        &["modulation.scheme.offset = none", "regular polygon", "give offset"],
+    ),
+    (
+        "row that is too wide",
+        All(&[
+            Row("[1, 0, -1, 0]", "[131071, 0, -131071, 0]"),
+            Replace(SPEC, "[0, 1, 0, -1]", "[0, 131071, 0, -131071]"),
+            Replace(SPEC, "[1, 1, 1, 1]", "[131071, 131071, 131071, 131071]"),
+            Replace(SPEC, "adc_bits = 12", "adc_bits = 16"),
+            Replace(SPEC, "per_step = 2", "per_step = 256"),
+            Replace(SPEC, "offset_fraction_bits = 4", "offset_fraction_bits = 8"),
+        ]),
+        &["modulation.scheme.offset", "63 bits", "smaller weights"],
+    ),
     ("frequency NaN", replace("30000000.0", "nan"), &["modulation.frequency_hz = nan", "1e4 to 1e10 Hz"]),
     (
         "frequency infinite",
@@ -592,6 +742,19 @@ fn the_limits_themselves_are_allowed() {
         &[("30000000.0", "1e10"), ("1e-5", "1e-7")],
         &[("30000000.0", "1e4"), ("1e-5", "1.0")],
         &[("\"bench\"", "\"a\"")],
+        &[("\"wdft\"", "\"dft\"\nframes = 3\ncoefficient_bits = 4")],
+        &[
+            ("\"wdft\"", "\"dft\"\nframes = 64\ncoefficient_bits = 18"),
+            ("per_step = 2", "per_step = 256"),
+            ("adc_bits = 12", "adc_bits = 16"),
+        ],
+        &[
+            ("scheme = \"wdft\"\n", ""),
+            (
+                "\n[cordic]",
+                "\n[modulation.scheme]\nname = \"own\"\nstep_turns = \"1/3\"\nin_phase = [2, -1, -1]\nquadrature = [0, 1, -1]\nirrational = \"sqrt(3)\"\n\n[cordic]",
+            ),
+        ],
         &[("\"bench\"", "\"a_34567890123456789012345678901-\"")],
     ];
     for replacement in replacements {

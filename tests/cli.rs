@@ -91,6 +91,7 @@ fn help_names_every_command_and_every_option() {
                 "--frequency-hz <HZ>",
                 "--samples <N>",
                 "--exhaustive",
+                "--synthesise",
                 "--out <DIR>",
                 "--shard <I/N>",
                 "--merge",

@@ -119,7 +119,7 @@ fn extremes() -> Vec<(&'static str, Pipeline)> {
 fn specifications_at_the_ends_of_what_is_allowed_agree_in_both_simulators() {
     let extremes = extremes();
     let drop_bits: Vec<u32> =
-        extremes.iter().map(|(_, pipeline)| pipeline.derived().normaliser.drop_bits).collect();
+        extremes.iter().map(|(_, pipeline)| pipeline.derived().angle.drop_bits()).collect();
     // The vector's words before the CORDIC are as wide, wider and narrower: nothing rounded off, 2 bits and more.
     assert!([0, 2].iter().all(|bits| drop_bits.contains(bits)) && drop_bits.iter().any(|&bits| bits > 10));
     let runs: Vec<_> =

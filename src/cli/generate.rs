@@ -4,7 +4,7 @@ use super::print::{counted, say};
 use super::{agreement, golden_of_preset, progress};
 use crate::artifact::{self, Difference};
 use crate::hdl::{Source, all_artifacts, angle_core_artifacts, angle_stimulus};
-use crate::package::package_artifacts;
+use crate::package::{angle_package_artifacts, package_artifacts};
 use crate::problem::Result;
 use crate::spec::Design;
 use clap::Args;
@@ -14,7 +14,7 @@ use std::process::ExitCode;
 /// Write Verilog, test benches, golden vectors, a package and an integration guide from a specification
 #[derive(Debug, Args)]
 pub(super) struct Generate {
-    /// Specification: a preset (vuris, vuris-fast, vuris-four-frame, angle-16, angle-16-folded, angle-16-iterative) or a TOML file
+    /// Specification: a preset (vuris, vuris-fast, vuris-four-frame, angle-16, angle-16-folded, angle-16-iterative, angle-16-poly, angle-16-poly-memory) or a TOML file
     #[arg(long, value_name = "FILE|PRESET")]
     spec: String,
     /// Folder to write to, or to check
@@ -58,7 +58,9 @@ impl Generate {
             }
             Design::Angle(core) => {
                 let vectors = angle_stimulus(&core.unit, ANGLE_SEED);
-                (core.name.clone(), angle_core_artifacts(&core, &spec, &vectors))
+                let mut artifacts = angle_core_artifacts(&core, &spec, &vectors);
+                artifacts.extend(angle_package_artifacts(&core, &spec, &artifacts));
+                (core.name.clone(), artifacts)
             }
         };
         if !self.check {

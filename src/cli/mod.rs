@@ -1,12 +1,15 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
 mod campaign;
+mod coverage;
 mod demo;
 mod explain;
 mod generate;
+mod mutate;
 mod print;
 mod process;
 mod progress;
+mod prove;
 mod scene;
 mod stimulus;
 mod sweep;
@@ -39,6 +42,9 @@ enum Command {
     Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
     Synth(synth::Synth),
+    Mutate(mutate::Mutate),
+    Coverage(coverage::Coverage),
+    Prove(prove::Prove),
 }
 
 impl Arguments {
@@ -54,6 +60,9 @@ impl Arguments {
             Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Synth(command) => command.run(),
+            Command::Mutate(command) => command.run(),
+            Command::Coverage(command) => command.run(),
+            Command::Prove(command) => command.run(),
         }
     }
 }

@@ -101,7 +101,7 @@ impl Processed {
         };
         put("recording", self.recording.name.clone().into());
         put("spec", spec.into());
-        put("scheme", self.pipeline.modulation.scheme.name.into());
+        put("scheme", (&*self.pipeline.modulation.scheme.name).into());
         put("phase_turns_per_code", f64::from(output.phase_bits).exp2().recip().into());
         put("amplitude_dn_per_code", f64::from(output.amplitude_fraction_bits).exp2().recip().into());
         put("offset_dn_per_code", f64::from(output.offset_fraction_bits).exp2().recip().into());

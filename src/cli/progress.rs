@@ -37,3 +37,15 @@ pub(super) fn steps<T>(total: usize, work: impl FnOnce(&(dyn Fn(&str) + Sync)) -
     bar.finish_and_clear();
     result
 }
+
+/// A bar while `work` runs and tells how many of how many are done.
+pub(super) fn counted<T>(what: &'static str, work: impl FnOnce(&(dyn Fn(usize, usize) + Sync)) -> T) -> T {
+    let bar = bar(0);
+    bar.set_message(what);
+    let result = work(&|done, all| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    });
+    bar.finish_and_clear();
+    result
+}

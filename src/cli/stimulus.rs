@@ -27,7 +27,7 @@ pub(super) fn sensor(pipeline: &Pipeline) -> Sensor {
 /// `[set, …, row, column]`.
 pub fn scene_sets(pipeline: &Pipeline, sets: usize, noise_seed: Option<u64>) -> Result<(RawSets, Vec<f64>)> {
     let acquisition = Acquisition {
-        scheme: pipeline.modulation.scheme,
+        scheme: pipeline.modulation.scheme.clone(),
         frames_per_step: pipeline.modulation.frames_per_step,
         order: pipeline.modulation.steps_in_order(),
         frequency_hz: pipeline.modulation.frequency_hz,

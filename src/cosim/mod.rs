@@ -14,4 +14,4 @@ pub use finding::Finding;
 pub use lint::lint;
 pub use run::{Outcome, Simulation, Simulator, Traffic, simulate};
 pub use scenario::{aborted_then_good, corner_sets, faulty_stream, random_sets, resets, silences, standard};
-pub use tools::{IVERILOG, Tool, VVP, Verilator, find, output};
+pub use tools::{IVERILOG, Tool, VVP, Verilator, YOSYS, find, output};

@@ -129,6 +129,11 @@ impl<'a> Simulation<'a> {
         Ok(simulation)
     }
 
+    /// What was built: Verilator's program, or Icarus' file for vvp. It runs in the folder, and takes what the bench's first lines say.
+    pub fn program(&self) -> &Path {
+        &self.program
+    }
+
     /// Runs it and compares; after a mismatch again, with a waveform of the clocks around the first.
     pub fn run(&self, traffic: Traffic) -> Result<Outcome> {
         let mut outcome = self.start(&self.program, traffic, None)?;

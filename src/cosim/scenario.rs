@@ -4,9 +4,11 @@ use super::accesses::{read_all, register_accesses};
 use crate::frames::RawSets;
 use crate::hdl::{Scenario, Segment};
 use crate::model::{Beat, StreamEvent, beats_of_set};
-use crate::spec::{Pipeline, Word};
+use crate::spec::{Pipeline, Scheme, Word};
+use num_complex::Complex64;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use std::f64::consts::TAU;
 
 /// `sets` sets whose codes `code` gives, for set, frame within the set and pixel.
 fn sets_of(pipeline: &Pipeline, sets: usize, mut code: impl FnMut(usize, usize, usize) -> u32) -> RawSets {
@@ -33,12 +35,36 @@ pub fn random_sets(pipeline: &Pipeline, seed: u64, sets: usize) -> RawSets {
     })
 }
 
+/// Up to so many phase steps, all combinations of two codes are tried.
+const MOST_STEPS_COMBINED: usize = 6;
+
+/// For each phase step whether it has the greater of two codes: every combination, or with many steps those in which a sum
+/// is at an extreme or a single step differs from all others.
+fn patterns(scheme: &Scheme) -> Vec<Vec<bool>> {
+    let steps = scheme.steps();
+    if steps <= MOST_STEPS_COMBINED {
+        return (0..1_usize << steps)
+            .map(|bits| (0..steps).map(|step| bits >> step & 1 == 1).collect())
+            .collect();
+    }
+    let vectors = scheme.characteristic_polynomial();
+    // The sums' extremes in sixteen directions, the axes and the diagonals among them.
+    let extremes = (0..16).map(|part| {
+        let direction = Complex64::from_polar(1.0, TAU * f64::from(part) / 16.0);
+        vectors.iter().map(|c| (c * direction.conj()).re > 0.0).collect()
+    });
+    let singles = (0..2 * steps).map(|n| (0..steps).map(|step| (step == n % steps) == (n < steps)).collect());
+    let constant = [false, true].map(|greater| vec![greater; steps]);
+    constant.into_iter().chain(extremes).chain(singles).collect()
+}
+
 /// Sets in which a pixel's phase steps are one of: every combination of least and greatest code (all sums at their
 /// extremes, all axes and diagonals among them), every combination of two neighbouring codes (the weakest vectors),
-/// codes around saturation, and codes that the stream's bytes can carry and the converter cannot make.
+/// codes around saturation, and codes that the stream's bytes can carry and the converter cannot make. With more than
+/// six steps, chosen combinations.
 pub fn corner_sets(pipeline: &Pipeline) -> RawSets {
     let full_scale = full_scale(pipeline);
-    let steps = pipeline.modulation.scheme.steps();
+    let patterns = patterns(&pipeline.modulation.scheme);
     let frames_per_step = pipeline.modulation.frames_per_step;
     let saturation = pipeline.sensor.saturation_dn as u32;
     let pairs = [
@@ -51,12 +77,13 @@ pub fn corner_sets(pipeline: &Pipeline) -> RawSets {
     ];
     // As many sets as it takes to have every pattern, up to eight on the smallest sensors; a stride without a common divisor
     // spreads the patterns over them.
-    let patterns = pairs.len() << steps;
+    let count = pairs.len() * patterns.len();
+    let stride = [37, 41, 43].into_iter().find(|stride| !count.is_multiple_of(*stride)).unwrap_or(1);
     let pixels = pipeline.geometry().pixels();
-    sets_of(pipeline, patterns.div_ceil(pixels).min(8), |set, frame, pixel| {
-        let pattern = (set * pixels + pixel) * 37 % patterns;
-        let (low, high) = pairs[pattern >> steps];
-        if pattern >> (frame / frames_per_step) & 1 == 1 { high } else { low }
+    sets_of(pipeline, count.div_ceil(pixels).min(8), |set, frame, pixel| {
+        let corner = (set * pixels + pixel) * stride % count;
+        let (low, high) = pairs[corner / patterns.len()];
+        if patterns[corner % patterns.len()][frame / frames_per_step] { high } else { low }
     })
 }
 

@@ -17,6 +17,8 @@ pub struct Tool {
 pub const IVERILOG: Tool = Tool { name: "iverilog", remedy: "apt-get install iverilog, or `make setup`" };
 /// Icarus Verilog's runtime.
 pub const VVP: Tool = Tool { name: "vvp", remedy: "apt-get install iverilog, or `make setup`" };
+/// Yosys: netlists, mutants and proofs.
+pub const YOSYS: Tool = Tool { name: "yosys", remedy: "apt-get install yosys, or `make setup`" };
 const VERILATOR: Tool = Tool {
     name: "verilator",
     remedy: "`make setup` in the repository; or set VURIS_VERILATOR to the program; or apt-get install verilator",

@@ -1,4 +1,4 @@
-//! Template contexts of the modules that move data: stream register, delay, framing, sum memory, accumulator.
+//! Template contexts of the modules that move data: stream register, delay, framing.
 
 use super::Source;
 use super::text::counter_bits;
@@ -36,7 +36,7 @@ pub(super) struct Counters {
 
 impl Counters {
     pub(super) fn new(source: &Source) -> Self {
-        let (geometry, scheme) = (source.pipeline.geometry(), source.pipeline.modulation.scheme);
+        let (geometry, scheme) = (source.pipeline.geometry(), &source.pipeline.modulation.scheme);
         Self {
             column_bits: counter_bits(geometry.width - 1),
             row_bits: counter_bits(geometry.height - 1),
@@ -87,121 +87,4 @@ pub(super) fn framing(source: &Source, banner: String) -> askama::Result<String>
         last_silence,
     }
     .render()
-}
-
-#[derive(Template)]
-#[template(path = "sum_memory.v", escape = "none")]
-struct SumMemory {
-    banner: String,
-    prefix: String,
-    word_bits: u32,
-    address_bits: u32,
-    words: usize,
-}
-
-pub(super) fn sum_memory(source: &Source, banner: String) -> askama::Result<String> {
-    SumMemory {
-        banner,
-        prefix: source.pipeline.prefix(),
-        word_bits: source.pipeline.derived().memory_word_bits,
-        address_bits: Counters::new(source).address_bits,
-        words: source.pipeline.geometry().pixels(),
-    }
-    .render()
-}
-
-/// One phase step: its weights, and the sample times them.
-struct Step {
-    number: usize,
-    /// The case label.
-    label: String,
-    in_phase: i64,
-    quadrature: i64,
-    offset: i64,
-    in_phase_term: String,
-    quadrature_term: String,
-    offset_term: String,
-}
-
-#[derive(Template)]
-#[template(path = "accumulator.v", escape = "none")]
-struct Accumulator {
-    banner: String,
-    prefix: String,
-    scheme: &'static str,
-    steps: Vec<Step>,
-    sample_bits: u32,
-    in_phase_bits: u32,
-    quadrature_bits: u32,
-    offset_bits: u32,
-    address_bits: u32,
-    column_bits: u32,
-    step_bits: u32,
-    pixels: usize,
-    last_column: usize,
-    saturation: i64,
-}
-
-pub(super) fn accumulator(source: &Source, banner: String) -> askama::Result<String> {
-    let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
-    let scheme = pipeline.modulation.scheme;
-    let Counters { column_bits, address_bits, step_bits, .. } = Counters::new(source);
-    let last_step = scheme.steps() - 1;
-    let steps = (0..scheme.steps())
-        .map(|number| Step {
-            number,
-            label: if number == last_step { "default".to_owned() } else { format!("{step_bits}'d{number}") },
-            in_phase: scheme.in_phase[number],
-            quadrature: scheme.quadrature[number],
-            offset: scheme.offset[number],
-            in_phase_term: term("sample_in_phase", scheme.in_phase[number], "{IN_PHASE_BITS{1'b0}}"),
-            quadrature_term: term("sample_quadrature", scheme.quadrature[number], "{QUADRATURE_BITS{1'b0}}"),
-            offset_term: term("sample_offset", scheme.offset[number], "{OFFSET_BITS{1'b0}}"),
-        })
-        .collect();
-    Accumulator {
-        banner,
-        prefix: pipeline.prefix(),
-        scheme: scheme.name,
-        steps,
-        sample_bits: derived.sample.bits,
-        in_phase_bits: derived.in_phase.bits,
-        quadrature_bits: derived.quadrature.bits,
-        offset_bits: derived.offset_sum.bits,
-        address_bits,
-        column_bits,
-        step_bits,
-        pixels: pipeline.geometry().pixels(),
-        last_column: pipeline.sensor.width - 1,
-        saturation: pipeline.sensor.saturation_dn,
-    }
-    .render()
-}
-
-/// `sample` times `weight` as shifts and adds, one a set bit of the weight.
-fn term(sample: &str, weight: i64, zero: &str) -> String {
-    let shifts: Vec<String> = (0..u64::BITS)
-        .filter(|bit| weight.unsigned_abs() >> bit & 1 == 1)
-        .map(|bit| if bit == 0 { sample.to_owned() } else { format!("({sample} << {bit})") })
-        .collect();
-    match (shifts.as_slice(), weight < 0) {
-        ([], _) => zero.to_owned(),
-        ([one], false) => one.clone(),
-        ([one], true) => format!("-{one}"),
-        (many, false) => many.join(" + "),
-        (many, true) => format!("-({})", many.join(" + ")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn weights_become_shifts_and_adds() {
-        assert_eq!(term("s", 0, "0"), "0");
-        assert_eq!(term("s", 1, "0"), "s");
-        assert_eq!(term("s", -3, "0"), "-(s + (s << 1))");
-        assert_eq!(term("s", 4, "0"), "(s << 2)");
-    }
 }

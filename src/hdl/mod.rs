@@ -2,12 +2,15 @@
 //!
 //! One template a module, in `hdl-templates/`; values arrive there finished.
 
+mod accumulator;
 mod angle;
 mod bench;
 mod control;
 mod golden;
 mod polar;
+mod poly;
 mod registers;
+mod rom;
 mod sequencer;
 mod text;
 mod top;
@@ -75,13 +78,13 @@ const MODULES: &[Module] = &[
         noun: "sum_memory",
         purpose: "The sums of all pixels.",
         belongs: always,
-        render: control::sum_memory,
+        render: accumulator::sum_memory,
     },
     Module {
         noun: "accumulator",
         purpose: "In-phase, quadrature and offset sums of every pixel, added while frames arrive.",
         belongs: always,
-        render: control::accumulator,
+        render: accumulator::accumulator,
     },
     Module {
         noun: "amplitude",
@@ -119,11 +122,24 @@ pub fn modules(pipeline: &Pipeline) -> Vec<(&'static str, &'static str)> {
         .collect()
 }
 
+/// The nouns of all modules that any pipeline has, in the order in which they are listed.
+pub fn module_nouns() -> impl Iterator<Item = &'static str> {
+    let mut nouns: Vec<&'static str> = MODULES.iter().map(|module| module.noun).collect();
+    // Another architecture's module of the same noun is the same row.
+    for module in ANGLE_MODULES {
+        if !nouns.contains(&module.noun) {
+            nouns.push(module.noun);
+        }
+    }
+    nouns.into_iter()
+}
+
 /// The Verilog files of the angle unit alone, its top module `<prefix>_angle` last, and the file list.
 pub fn angle_artifacts(source: &AngleSource, spec: &str) -> Vec<Artifact> {
     let mut artifacts = angle_files(source, spec);
     let top = format!("{}_angle", source.prefix);
     artifacts.push(file_list(&artifacts, &top, spec));
+    artifacts.extend(poly::ecp5_artifact(source, spec));
     artifacts
 }
 

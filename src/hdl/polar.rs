@@ -3,12 +3,46 @@
 use super::Source;
 use super::text::{counter_bits, literal, range, table, zero_extended};
 use crate::model;
-use crate::spec::{ScaledConstant, Word, exact};
+use crate::spec::{Multipliers, ScaledConstant, Word, exact};
 use askama::Template;
 
 /// Bits of a constant's multiplier.
 fn factor_bits(factor: ScaledConstant) -> u32 {
     Word::holding(0, factor.multiplier).bits
+}
+
+/// `operand` of `bits` bits times the constant `multiplier`, modulo 2^bits.
+fn product(kind: Multipliers, operand: &str, bits: u32, multiplier: i64) -> String {
+    if kind == Multipliers::Dsp {
+        return format!("{operand} * {}", literal(bits, multiplier));
+    }
+    let mut text = String::new();
+    for (place, digit) in signed_digits(multiplier).into_iter().rev() {
+        let term = if place == 0 { operand.to_owned() } else { format!("({operand} << {place})") };
+        // The highest digit of a positive number is positive.
+        match (text.is_empty(), digit) {
+            (true, _) => text = term,
+            (false, 1) => text += &format!(" + {term}"),
+            (false, _) => text += &format!(" - {term}"),
+        }
+    }
+    text
+}
+
+/// The canonical signed-digit form of a positive number (Avizienis 1961): places and digits (1 or -1) that are not 0, lowest
+/// first; no two are neighbours, so they are as few as can be.
+fn signed_digits(number: i64) -> Vec<(u32, i64)> {
+    let (mut left, mut place, mut digits) = (number, 0, Vec::new());
+    while left != 0 {
+        if left & 1 == 1 {
+            let digit = if left & 3 == 3 { -1 } else { 1 };
+            digits.push((place, digit));
+            left -= digit;
+        }
+        left >>= 1;
+        place += 1;
+    }
+    digits
 }
 
 #[derive(Template)]
@@ -21,7 +55,7 @@ struct Amplitude {
     factor_shift: u32,
     exponent: i64,
     gain: String,
-    divisor: i64,
+    divisor: f64,
     rows: Vec<String>,
     x_bits: u32,
     shift_bits: u32,
@@ -29,7 +63,7 @@ struct Amplitude {
     amplitude_bits: u32,
     places_range: String,
     spare_bits: bool,
-    factor: String,
+    product: String,
     places: String,
 }
 
@@ -57,7 +91,7 @@ pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<Strin
             - 1
             - i64::from(angle.fraction_bits),
         gain: format!("{:.9}", exact::angle_gain_f64(angle.metric, angle.stages.x_iterations)),
-        divisor: pipeline.modulation.scheme.gain * pipeline.modulation.frames_per_step as i64,
+        divisor: pipeline.modulation.scheme.gain * pipeline.modulation.frames_per_step as f64,
         rows: table(&rows),
         x_bits: length.bits,
         shift_bits,
@@ -65,7 +99,12 @@ pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<Strin
         amplitude_bits: derived.amplitude.bits,
         places_range: range(places_bits),
         spare_bits: product_bits > derived.amplitude.bits + 1,
-        factor: literal(product_bits, factor.multiplier),
+        product: product(
+            pipeline.output.multipliers,
+            &format!("{{{{FACTOR_BITS{{1'b0}}}}, x_i}}"),
+            product_bits,
+            factor.multiplier,
+        ),
         places: format!(
             "{} + {}",
             zero_extended("shift_i", shift_bits, places_bits),
@@ -87,8 +126,7 @@ struct Offset {
     rows: Vec<String>,
     sum_bits: u32,
     offset_bits: u32,
-    sum: String,
-    factor: String,
+    product: String,
 }
 
 pub(super) fn offset(source: &Source, banner: String) -> askama::Result<String> {
@@ -108,8 +146,12 @@ pub(super) fn offset(source: &Source, banner: String) -> askama::Result<String> 
         rows: table(&rows),
         sum_bits: derived.offset_sum.bits,
         offset_bits: derived.offset.bits,
-        sum: zero_extended("sum_i", derived.offset_sum.bits, product_bits),
-        factor: literal(product_bits, factor.multiplier),
+        product: product(
+            pipeline.output.multipliers,
+            &zero_extended("sum_i", derived.offset_sum.bits, product_bits),
+            product_bits,
+            factor.multiplier,
+        ),
     }
     .render()
 }
@@ -127,8 +169,7 @@ struct Distance {
     rows: Vec<String>,
     phase_bits: u32,
     distance_bits: u32,
-    phase: String,
-    factor: String,
+    product: String,
 }
 
 pub(super) fn distance(source: &Source, banner: String) -> askama::Result<String> {
@@ -149,8 +190,30 @@ pub(super) fn distance(source: &Source, banner: String) -> askama::Result<String
         rows: table(&rows),
         phase_bits: derived.phase.bits,
         distance_bits: derived.distance.bits,
-        phase: zero_extended("phase_i", derived.phase.bits, product_bits),
-        factor: literal(product_bits, factor.multiplier),
+        product: product(
+            pipeline.output.multipliers,
+            &zero_extended("phase_i", derived.phase.bits, product_bits),
+            product_bits,
+            factor.multiplier,
+        ),
     }
     .render()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 7 = 8 - 1, 11 = 8 + 4 - 1 or, canonical, 16 - 4 - 1; digits add up to the number and have no neighbours.
+    #[test]
+    fn signed_digits_are_canonical() {
+        assert_eq!(signed_digits(7), [(0, -1), (3, 1)]);
+        assert_eq!(signed_digits(11), [(0, -1), (2, -1), (4, 1)]);
+        for number in 1..5000_i64 {
+            let digits = signed_digits(number);
+            assert_eq!(digits.iter().map(|(place, digit)| digit << place).sum::<i64>(), number);
+            assert!(digits.windows(2).all(|pair| pair[1].0 > pair[0].0 + 1), "{number}");
+        }
+        assert_eq!(product(Multipliers::ShiftAdd, "x", 8, 7), "(x << 3) - x");
+    }
 }

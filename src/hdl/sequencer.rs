@@ -16,7 +16,7 @@ struct Row {
 struct Sequencer {
     banner: String,
     prefix: String,
-    scheme: &'static str,
+    scheme: String,
     step_bits: u32,
     phase_bits: u32,
     /// The comment's table.
@@ -49,7 +49,7 @@ pub(super) fn sequencer(source: &Source, banner: String) -> askama::Result<Strin
     Sequencer {
         banner,
         prefix: source.pipeline.prefix(),
-        scheme: modulation.scheme.name,
+        scheme: modulation.scheme.name.to_string(),
         step_bits,
         phase_bits,
         places: table(&places),

@@ -49,6 +49,17 @@ pub(super) fn literal(bits: u32, value: i64) -> String {
     format!("{bits}'d{value}")
 }
 
+/// A signed literal.
+pub(super) fn signed_literal(bits: u32, value: i64) -> String {
+    debug_assert!(Word::signed(bits).contains(value));
+    // The least value has no positive literal: its pattern is written.
+    match value {
+        0.. => format!("{bits}'sd{value}"),
+        _ if value == Word::signed(bits).min() => format!("{bits}'sh{:x}", Word::signed(bits).pattern(value)),
+        _ => format!("-{bits}'sd{}", -value),
+    }
+}
+
 /// `name` of `from` bits as one of `to` bits, zeros above.
 pub(super) fn zero_extended(name: &str, from: u32, to: u32) -> String {
     match to - from {

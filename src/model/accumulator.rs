@@ -32,7 +32,7 @@ impl<'a> Accumulator<'a> {
     /// Adds the sample `code` (clipped to full scale) at `slot`.
     pub fn add(&mut self, slot: PixelSlot, code: u32) {
         let derived = self.pipeline.derived();
-        let scheme = self.pipeline.modulation.scheme;
+        let scheme = &self.pipeline.modulation.scheme;
         let sample = i64::from(code).min(derived.sample.max());
         let before = if slot.first_frame { Sums::default() } else { self.memory[slot.address] };
         let after = Sums {

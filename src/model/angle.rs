@@ -43,6 +43,9 @@ pub struct Turned {
 
 /// The phase of (x, √metric · y).
 pub fn turn(unit: &AngleUnit, x: i64, y: i64) -> Turned {
+    if let Some(poly) = &unit.poly {
+        return super::poly(poly, x, y);
+    }
     let normalised = normalise(unit, x, y);
     let rotated = rotate(unit, normalised);
     let phase = phase(unit, normalised, rotated.directions);

@@ -1,12 +1,13 @@
 //! The integration guide: what an engineer needs on one page.
 
-use super::lists::{core_name, file, mark};
+use super::lists::{Packaged, file};
 use super::ports::{Direction, ports};
 use super::timing::{Timing, diagrams};
 use super::wave::Diagram;
 use crate::artifact::Artifact;
-use crate::hdl::{Source, result_bits, result_fields};
+use crate::hdl::{result_bits, result_fields};
 use crate::report::escaped;
+use crate::spec::Pipeline;
 use crate::units::unambiguous_range_m;
 use askama::Template;
 
@@ -35,9 +36,8 @@ struct Guide {
     pixels: usize,
     adc_bits: u32,
     saturation: i64,
-    scheme: &'static str,
-    steps: usize,
-    step: String,
+    scheme: String,
+    steps: String,
     frames_per_step: usize,
     frames_per_set: usize,
     frequency_mhz: f64,
@@ -63,11 +63,9 @@ struct Guide {
 }
 
 /// The guide's file; `resources`: the lines of a table of what synthesis has found, or none.
-pub(super) fn artifact(source: &Source, resources: &[String]) -> Artifact {
-    let pipeline = source.pipeline;
+pub(super) fn artifact(of: &Packaged, pipeline: &Pipeline, resources: &[String]) -> Artifact {
     let (derived, sensor, modulation) = (pipeline.derived(), &pipeline.sensor, &pipeline.modulation);
     let (timing, budget) = (Timing::new(pipeline), pipeline.budget());
-    let (numerator, denominator) = modulation.scheme.step_turns;
     let bound = |relative: f64| format!("0.5 codes + {relative:.1e} of it");
     let ports = ports(pipeline).into_iter().map(|port| PortRow {
         name: port.name,
@@ -92,17 +90,16 @@ pub(super) fn artifact(source: &Source, resources: &[String]) -> Artifact {
         meaning: field.meaning,
     });
     let guide = Guide {
-        mark: escaped(&mark(source)),
+        mark: escaped(&of.mark()),
         top: pipeline.top(),
-        core: core_name(source),
+        core: of.core(),
         width: sensor.width,
         height: sensor.height,
         pixels: pipeline.geometry().pixels(),
         adc_bits: sensor.adc_bits,
         saturation: sensor.saturation_dn,
-        scheme: modulation.scheme.name,
-        steps: modulation.scheme.steps(),
-        step: format!("{numerator}/{denominator}"),
+        scheme: modulation.scheme.name.to_string(),
+        steps: modulation.scheme.steps_in_words(),
         frames_per_step: modulation.frames_per_step,
         frames_per_set: derived.frames_per_set,
         frequency_mhz: modulation.frequency_hz / 1e6,

@@ -37,7 +37,9 @@ impl Timing {
         };
         let (results_a_burst, rounds) = match angle.architecture {
             Architecture::Folded { stages, rounds } => (stages, rounds),
-            Architecture::Unrolled | Architecture::Iterative => (1, angle.clocks_a_vector(0)),
+            Architecture::Unrolled | Architecture::Iterative | Architecture::Tables => {
+                (1, angle.clocks_a_vector(0))
+            }
         };
         Self {
             results_a_burst: results_a_burst.into(),

@@ -29,7 +29,7 @@ use rand_distr::{Distribution, StandardNormal};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Acquisition {
     /// The phase steps of a set.
-    pub scheme: &'static Scheme,
+    pub scheme: Scheme,
     /// Raw frames taken one after the other at every phase step, at least 1.
     pub frames_per_step: usize,
     /// The scheme's phase steps in the order in which they are taken.
@@ -86,7 +86,7 @@ pub fn simulate(
         let mut true_m: Vec<f64> = middle.iter().map(|s| s.map_or(f64::NAN, |s| s.range_m)).collect();
         for frame in 0..frames_per_set {
             let step = acquisition.order[frame / acquisition.frames_per_step];
-            let angle_rad = step as f64 * acquisition.scheme.step_rad();
+            let angle_rad = acquisition.scheme.angle_rad(step);
             let mut noise = noise_seed.map(|seed| noise_of_frame(seed, set * frames_per_set + frame));
             for (pixel, surface) in view(acquisition.start_s(set, frame)).into_iter().enumerate() {
                 if object(surface) != object(middle[pixel]) {

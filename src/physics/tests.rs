@@ -12,7 +12,7 @@ const FREQUENCY_HZ: f64 = 30e6;
 /// Four frames or WDFT at 30 MHz and 25 ms a frame, one set.
 fn acquisition(name: &str) -> Acquisition {
     Acquisition {
-        scheme: scheme(name).unwrap(),
+        scheme: scheme(name).unwrap().clone(),
         frames_per_step: 1,
         order: (0..scheme(name).unwrap().steps()).collect(),
         frequency_hz: FREQUENCY_HZ,
@@ -40,7 +40,7 @@ fn measured(frames: &RawSets, acquisition: &Acquisition) -> Vec<(f64, f64)> {
                 .map(|n| (acquisition.order[n / acquisition.frames_per_step], n))
                 .map(|(step, n)| coefficients[step] * f64::from(frames.frame(0, n)[pixel]))
                 .sum();
-            let gain = (acquisition.scheme.gain * acquisition.frames_per_step as i64) as f64;
+            let gain = acquisition.scheme.gain * acquisition.frames_per_step as f64;
             (sum.arg(), sum.norm() / gain)
         })
         .collect()
@@ -82,7 +82,7 @@ fn without_harmonics_and_noise_the_range_comes_back_to_the_converters_rounding()
         let (frames, true_m) =
             simulate(&scene, &Correlation::sinusoidal(), &Sensor::vuris(), &acquisition, None).unwrap();
         let gain: f64 = acquisition.scheme.characteristic_polynomial().iter().map(|c| c.norm()).sum::<f64>()
-            / acquisition.scheme.gain as f64;
+            / acquisition.scheme.gain;
         for (&(phase, amplitude_dn), &true_m) in measured(&frames, &acquisition).iter().zip(&true_m) {
             let error_rad = wrap_rad(phase - phase_rad(true_m, FREQUENCY_HZ));
             // Every code is off by at most 1/2 DN, so the sum's vector by at most Σ|c_n|/2 over its gain.

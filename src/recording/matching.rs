@@ -1,13 +1,18 @@
 //! Which hardware fits a recording: sensor, ADC, frequency and frames a step are the recording's, the rest is the
 //! specification's.
 //!
-//! The phase scheme is recognised by the frames' phase steps, in whatever order they were taken. A set's phase offset is not among them: the hardware adds
+//! The phase scheme is recognised by the frames' phase steps, in whatever order they were taken: a named one, or the plain DFT of
+//! any number of equal parts of a turn. A set's phase offset is not among them: the hardware adds
 //! nothing to a phase, so whoever reads the phase adds the offset.
 
 use super::Recording;
 use crate::problem::{Problem, Result};
-use crate::spec::{Modulation, Pipeline, SCHEMES, Scheme, Specification, Word, normalised_order};
+use crate::spec::{
+    COEFFICIENT_BITS, DFT_FRAMES, Modulation, Pipeline, SCHEMES, Scheme, Specification, Word,
+    normalised_order, scheme,
+};
 use crate::units::wrap_rad;
+use std::f64::consts::TAU;
 
 /// Steps that differ by less, modulo 2π, are the same, rad. Steps written with five digits are (1.5708), and what is then
 /// left in the phase, under 0.1 mrad, is below any camera's noise; a step that is really wrong is off by more.
@@ -22,7 +27,8 @@ pub enum SchemeChoice {
     /// The specification's; a recording of other steps is refused.
     #[default]
     Specified,
-    /// The first of [`SCHEMES`] that has the recording's steps.
+    /// The specification's where it has the recording's steps, else the first of [`SCHEMES`] that has them, else the plain DFT
+    /// where they are equal parts of a turn.
     Auto,
 }
 
@@ -35,7 +41,7 @@ pub fn pipeline_for(
     base: &Pipeline,
     choice: SchemeChoice,
 ) -> Result<(Pipeline, Vec<String>)> {
-    let Steps { scheme, frames_per_step, order } = steps_of(recording, &base.modulation, choice)?;
+    let Steps { scheme, frames_per_step, order } = steps_of(recording, base, choice)?;
     let source = format!("{} adapted to {}", base.name, recording.folder.display());
     let pipeline = base.adapted(&source, |specification| {
         let Specification { sensor, modulation, .. } = specification;
@@ -49,9 +55,9 @@ pub fn pipeline_for(
         };
         // A threshold beyond the new full scale would never be met.
         sensor.saturation_dn = sensor.saturation_dn.min(Word::unsigned(sensor.adc_bits).max());
+        modulation.order = normalised_order(&scheme, order);
         modulation.scheme = scheme;
         modulation.frames_per_step = frames_per_step;
-        modulation.order = normalised_order(scheme, order);
         modulation.frequency_hz = recording.frequency_hz;
     })?;
     let sentences = differences(recording, base, &pipeline);
@@ -67,7 +73,7 @@ fn differences(recording: &Recording, base: &Pipeline, pipeline: &Pipeline) -> V
         ("sensor", "frames.npy", &size),
         ("ADC", adc_source, &|p| format!("{} bits", p.sensor.adc_bits)),
         ("saturation", "the ADC's bits", &|p| format!("{} DN", p.sensor.saturation_dn)),
-        ("scheme", "the phase steps", &|p| p.modulation.scheme.name.to_owned()),
+        ("scheme", "the phase steps", &|p| shown_scheme(&p.modulation.scheme)),
         ("frames per step", "the phase steps", &|p| p.modulation.frames_per_step.to_string()),
         ("order of the steps", "the phase steps", &shown_order),
         ("modulation", "recording.toml", &|p| format!("{} MHz", p.modulation.frequency_hz / 1e6)),
@@ -87,10 +93,15 @@ fn shown_order(pipeline: &Pipeline) -> String {
     }
 }
 
+/// The name of `scheme`; a DFT's with its frames.
+fn shown_scheme(scheme: &Scheme) -> String {
+    if scheme.name == "dft" { format!("dft of {} frames", scheme.steps()) } else { scheme.name.to_string() }
+}
+
 /// What a recording's phase steps say.
 #[derive(Debug, Clone, PartialEq)]
 struct Steps {
-    scheme: &'static Scheme,
+    scheme: Scheme,
     /// Consecutive frames of one step.
     frames_per_step: usize,
     /// The scheme's steps as the recording has them.
@@ -98,28 +109,32 @@ struct Steps {
 }
 
 /// The scheme of `recording`, its frames a step and the order of its steps.
-fn steps_of(recording: &Recording, specified: &Modulation, choice: SchemeChoice) -> Result<Steps> {
+fn steps_of(recording: &Recording, base: &Pipeline, choice: SchemeChoice) -> Result<Steps> {
     let steps_rad = &recording.steps_rad;
     let file = recording.folder.join("recording.toml");
-    let found = SCHEMES.iter().find_map(|scheme| matched(scheme, specified, steps_rad));
-    let wanted = match choice {
-        SchemeChoice::Auto => found.clone(),
-        SchemeChoice::Specified => matched(specified.scheme, specified, steps_rad),
-    };
-    match (wanted, found) {
-        (Some(steps), _) => Ok(steps),
-        (None, Some(Steps { scheme: other, .. })) => Err(Problem::in_file(
-            &file,
-            format_args!("its phase steps are those of the scheme {}", other.name),
-        )
-        .expected(format_args!(
-            "those of the specified scheme {}: {}",
-            specified.scheme.name,
-            shown_rad(&scheme_steps_rad(specified.scheme))
-        ))
-        .remedy(format_args!("`--scheme auto` picks {}", other.name))),
-        (None, None) => {
-            let known = SCHEMES.iter().map(|scheme| {
+    let specified = &base.modulation;
+    if let Some(own) = matched(&specified.scheme, specified, steps_rad) {
+        return Ok(own);
+    }
+    let found = SCHEMES
+        .iter()
+        .find_map(|scheme| matched(scheme, specified, steps_rad))
+        .or_else(|| matched(&dft_of(steps_rad, base)?, specified, steps_rad));
+    match (choice, found) {
+        (SchemeChoice::Auto, Some(steps)) => Ok(steps),
+        (SchemeChoice::Specified, Some(Steps { scheme: other, .. })) => {
+            let other = shown_scheme(&other);
+            Err(Problem::in_file(&file, format_args!("its phase steps are those of the scheme {other}"))
+                .expected(format_args!(
+                    "those of the specified scheme {}: {}",
+                    specified.scheme.name,
+                    shown_rad(&scheme_steps_rad(&specified.scheme))
+                ))
+                .remedy(format_args!("`--scheme auto` picks {other}")))
+        }
+        (_, None) => {
+            let own = Some(&specified.scheme).filter(|own| scheme(&own.name).is_none());
+            let known = SCHEMES.iter().chain(own).map(|scheme| {
                 let steps = shown_rad(&scheme_steps_rad(scheme));
                 format!("\n    {}: {steps}", scheme.name)
             });
@@ -129,12 +144,31 @@ fn steps_of(recording: &Recording, specified: &Modulation, choice: SchemeChoice)
             )
             .expected(format_args!(
                 "modulo 2 pi, within {STEP_TOLERANCE_RAD:e} rad, in any order, one of the following, each step held for the same \
-                 number of consecutive frames{}",
-                known.collect::<String>()
+                 number of consecutive frames{}
+    dft: {} to {} equal parts of a turn",
+                known.collect::<String>(),
+                DFT_FRAMES.start(),
+                DFT_FRAMES.end()
             ))
             .remedy("select the frames of each set, or record with the steps of a scheme"))
         }
     }
+}
+
+/// Part of a phase code that rounding a DFT's cosines and sines may cost, where nobody has said with how many bits.
+const COEFFICIENT_SHARE: f64 = 1.0 / 4.0;
+
+/// The plain DFT whose steps `steps_rad` are, in any order, with as few bits a coefficient as keep their rounding below
+/// [`COEFFICIENT_SHARE`] of a phase code of `base` (or all, where none do).
+fn dft_of(steps_rad: &[f64], base: &Pipeline) -> Option<Scheme> {
+    let code_rad = TAU / f64::from(base.output.phase_bits).exp2();
+    let all_bits = *COEFFICIENT_BITS.end();
+    let steps = DFT_FRAMES.filter(|&steps| steps_rad.len().is_multiple_of(steps)).find(|&steps| {
+        Scheme::dft(steps, all_bits).is_some_and(|dft| matched(&dft, &base.modulation, steps_rad).is_some())
+    })?;
+    let dft = |coefficient_bits| Scheme::dft(steps, coefficient_bits);
+    let exact = |scheme: &Scheme| scheme.weight_error_rad <= COEFFICIENT_SHARE * code_rad;
+    COEFFICIENT_BITS.filter_map(dft).find(exact).or_else(|| dft(all_bits))
 }
 
 /// How `steps_rad` are the steps of `scheme`, each held for the same number of consecutive frames.
@@ -142,30 +176,30 @@ fn steps_of(recording: &Recording, specified: &Modulation, choice: SchemeChoice)
 /// Steps that are whole turns apart look the same (the first and the fourth of the WDFT do). Then the specified order decides, where
 /// the frames can have it, and else each place has the lowest step that is left: of steps that look the same, the earlier frame has
 /// the lower one.
-fn matched(scheme: &'static Scheme, specified: &Modulation, steps_rad: &[f64]) -> Option<Steps> {
+fn matched(scheme: &Scheme, specified: &Modulation, steps_rad: &[f64]) -> Option<Steps> {
     let frames_per_step = steps_rad.len() / scheme.steps();
     if frames_per_step == 0 || !steps_rad.len().is_multiple_of(scheme.steps()) {
         return None;
     }
     let places: Vec<&[f64]> = steps_rad.chunks(frames_per_step).collect();
     let has = |place: &[f64], step: usize| {
-        let off_rad = |step_rad: &f64| wrap_rad(step_rad - step as f64 * scheme.step_rad());
+        let off_rad = |step_rad: &f64| wrap_rad(step_rad - scheme.angle_rad(step));
         place.iter().all(|step_rad| off_rad(step_rad).abs() < STEP_TOLERANCE_RAD)
     };
     let order = specified.steps_in_order();
-    if specified.scheme == scheme && places.iter().zip(&order).all(|(place, &step)| has(place, step)) {
-        return Some(Steps { scheme, frames_per_step, order });
+    if specified.scheme == *scheme && places.iter().zip(&order).all(|(place, &step)| has(place, step)) {
+        return Some(Steps { scheme: scheme.clone(), frames_per_step, order });
     }
     let mut left: Vec<usize> = (0..scheme.steps()).collect();
     let mut order = Vec::new();
     for place in places {
         order.push(left.remove(left.iter().position(|&step| has(place, step))?));
     }
-    Some(Steps { scheme, frames_per_step, order })
+    Some(Steps { scheme: scheme.clone(), frames_per_step, order })
 }
 
 fn scheme_steps_rad(scheme: &Scheme) -> Vec<f64> {
-    (0..scheme.steps()).map(|n| n as f64 * scheme.step_rad()).collect()
+    (0..scheme.steps()).map(|n| scheme.angle_rad(n)).collect()
 }
 
 /// Steps for a refusal.
@@ -217,7 +251,7 @@ mod tests {
         for scheme in SCHEMES {
             for frames_per_step in [1, 3] {
                 for extra_rad in [0.0, TAU, -2.0 * TAU, 4e-7] {
-                    let recording = recording(steps(scheme.name, frames_per_step, extra_rad), 4000);
+                    let recording = recording(steps(&scheme.name, frames_per_step, extra_rad), 4000);
                     let (pipeline, _) = pipeline_for(&recording, &base, SchemeChoice::Auto).unwrap();
                     assert_eq!(pipeline.modulation.scheme.name, scheme.name);
                     assert_eq!(pipeline.modulation.frames_per_step, frames_per_step);
@@ -254,7 +288,7 @@ mod tests {
         let base = Pipeline::named("vuris-four-frame").unwrap();
         for frames_per_step in [1, 2] {
             for order in [[0, 2, 1, 3], [3, 2, 1, 0], [1, 2, 3, 0]] {
-                let ascending = scheme_steps_rad(base.modulation.scheme);
+                let ascending = scheme_steps_rad(&base.modulation.scheme);
                 let step_rad = |place: usize| ascending[order[place / frames_per_step]];
                 let recording = recording((0..4 * frames_per_step).map(step_rad).collect(), 4000);
                 for choice in [SchemeChoice::Specified, SchemeChoice::Auto] {
@@ -325,6 +359,28 @@ mod tests {
         let steps_rad = (0..5).map(|n| f64::from(n) * 2.0944).collect();
         let (pipeline, _) = pipeline_for(&recording(steps_rad, 4000), &base, SchemeChoice::Auto).unwrap();
         assert_eq!(pipeline.modulation.scheme.name, "wdft");
+    }
+
+    #[test]
+    fn equal_parts_of_a_turn_that_no_named_scheme_has_are_a_dft() {
+        let base = Pipeline::named("vuris").unwrap();
+        let code_rad = TAU / f64::from(base.output.phase_bits).exp2();
+        for (parts, frames_per_step) in [(3, 1), (6, 1), (7, 2), (64, 1)] {
+            let step_rad = |frame: usize| TAU * (frame / frames_per_step) as f64 / parts as f64;
+            let recording = recording((0..parts * frames_per_step).map(step_rad).collect(), 4000);
+            let (pipeline, sentences) = pipeline_for(&recording, &base, SchemeChoice::Auto).unwrap();
+            let scheme = &pipeline.modulation.scheme;
+            assert_eq!((&*scheme.name, scheme.steps()), ("dft", parts));
+            assert_eq!(pipeline.modulation.frames_per_step, frames_per_step);
+            assert!(scheme.weight_error_rad <= COEFFICIENT_SHARE * code_rad, "{scheme:?}");
+            let sentence = format!("scheme dft of {parts} frames from the phase steps instead of wdft");
+            assert!(sentences.contains(&sentence), "{sentences:?}");
+            // A specification of that DFT takes it as it is; one of another says which.
+            let again = pipeline_for(&recording, &pipeline, SchemeChoice::Specified).unwrap().0;
+            assert_eq!(again.modulation.scheme, *scheme);
+            let refusal = pipeline_for(&recording, &base, SchemeChoice::Specified).unwrap_err().to_string();
+            assert!(refusal.contains(&format!("picks dft of {parts} frames")), "{refusal}");
+        }
     }
 
     #[test]

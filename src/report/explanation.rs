@@ -1,7 +1,7 @@
 //! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
 
 use crate::hdl::{result_bits, result_fields};
-use crate::spec::{Architecture, Pipeline, REGISTER_BYTES, REGISTERS, StageWord, Word, exact};
+use crate::spec::{Architecture, Pipeline, REGISTER_BYTES, REGISTERS, SchemeOrigin, StageWord, Word, exact};
 use crate::units::unambiguous_range_m;
 use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
@@ -64,7 +64,7 @@ pub fn explanation(pipeline: &Pipeline) -> String {
 
 fn input(pipeline: &Pipeline) -> Section {
     let (derived, sensor) = (pipeline.derived(), &pipeline.sensor);
-    let scheme = pipeline.modulation.scheme;
+    let scheme = &pipeline.modulation.scheme;
     let mut section = Section::new("raw stream");
     section.row("sample", word(derived.sample), "adc_bits");
     section.row(
@@ -75,13 +75,7 @@ fn input(pipeline: &Pipeline) -> Section {
     section.row(
         "raw frames a set",
         derived.frames_per_set,
-        format!(
-            "{} phase steps of {}/{} turn x {} frames a step",
-            scheme.steps(),
-            scheme.step_turns.0,
-            scheme.step_turns.1,
-            pipeline.modulation.frames_per_step
-        ),
+        format!("{} x {} frames a step", scheme.steps_in_words(), pipeline.modulation.frames_per_step),
     );
     let modulation = &pipeline.modulation;
     let order = modulation.steps_in_order();
@@ -107,13 +101,13 @@ fn input(pipeline: &Pipeline) -> Section {
 
 fn accumulator(pipeline: &Pipeline) -> Section {
     let derived = pipeline.derived();
-    let scheme = pipeline.modulation.scheme;
+    let scheme = &pipeline.modulation.scheme;
     let mut section = Section::new("accumulator");
     let full_scale = pipeline.modulation.frames_per_step as i64 * derived.sample.max();
     for (name, weights, sum) in [
-        ("in-phase sum", scheme.in_phase, derived.in_phase),
-        ("quadrature sum", scheme.quadrature, derived.quadrature),
-        ("offset sum", scheme.offset, derived.offset_sum),
+        ("in-phase sum", &scheme.in_phase, derived.in_phase),
+        ("quadrature sum", &scheme.quadrature, derived.quadrature),
+        ("offset sum", &scheme.offset, derived.offset_sum),
     ] {
         let part = |sign: i64| weights.iter().filter(|&&weight| weight * sign > 0).sum::<i64>();
         section.row(
@@ -151,6 +145,7 @@ fn angle(pipeline: &Pipeline) -> Section {
             Architecture::Unrolled => "unrolled".to_owned(),
             Architecture::Folded { stages, rounds } => format!("a ring of {stages} stages, {rounds} rounds"),
             Architecture::Iterative => "one iteration a clock".to_owned(),
+            Architecture::Tables => "tables and multipliers".to_owned(),
         },
         format!("a vector every {} clocks", angle.clocks_a_vector(0)),
     );
@@ -318,7 +313,20 @@ fn errors(pipeline: &Pipeline) -> Section {
         format!("0.5 codes + {:.2e}", budget.distance_relative),
         "last rounding, and relative: the factor; beside the phase's own error",
     );
-    let noise = pipeline.modulation.scheme.noise_factor();
+    let scheme = &pipeline.modulation.scheme;
+    if let SchemeOrigin::Dft { .. } = scheme.origin {
+        // Harmonics above half the steps are mirrors of lower ones; 1 less than the steps is the fundamental's.
+        let leakage = |m: usize| scheme.harmonic_leakage(m as i32);
+        let worst = (2..=scheme.steps() / 2).max_by(|&one, &other| leakage(one).total_cmp(&leakage(other)));
+        if let Some(worst) = worst {
+            section.row(
+                "harmonics that rounded weights let through",
+                format!("{:.2e} at most", leakage(worst)),
+                format!("of harmonic {worst}'s own amplitude, over the fundamental's; the exact DFT lets none through up to half its steps"),
+            );
+        }
+    }
+    let noise = scheme.noise_factor();
     section.row(
         "noise of the scheme",
         format!("{noise:.4} x sigma / amplitude rad"),

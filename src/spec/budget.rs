@@ -43,17 +43,19 @@ impl ErrorBudget {
             + f64::from(derived.angle.magnitude_bits)
             - 1.0
             - f64::from(derived.angle.fraction_bits);
-        let divisor = (pipeline.modulation.scheme.gain * pipeline.modulation.frames_per_step as i64) as f64;
+        let scheme = &pipeline.modulation.scheme;
+        let divisor = scheme.gain * pipeline.modulation.frames_per_step as f64;
         let amplitude_truth = exponent.exp2() / (gain * divisor);
         let offset_truth = f64::from(pipeline.output.offset_fraction_bits).exp2()
-            / (pipeline.modulation.scheme.offset_gain() * pipeline.modulation.frames_per_step as i64) as f64;
+            / (scheme.offset_gain() * pipeline.modulation.frames_per_step as i64) as f64;
         let distance_truth = crate::units::unambiguous_range_m(pipeline.modulation.frequency_hz)
             / pipeline.output.distance_unit_m
             / f64::from(phase_bits).exp2();
         Self {
-            phase: angle.phase,
+            phase: with_weight_error(angle.phase, pipeline),
             amplitude_relative: relative(derived.amplitude_factor.value(), amplitude_truth)
                 + angle.length_relative
+                + scheme.weight_error_amplitude
                 + 1e-14,
             offset_relative: relative(derived.offset_factor.value(), offset_truth) + 1e-14,
             distance_relative: relative(derived.distance_factor.value(), distance_truth) + 1e-14,
@@ -85,6 +87,24 @@ impl ErrorBudget {
     pub fn distance_codes(&self, codes: f64) -> f64 {
         0.5 + codes * self.distance_relative
     }
+}
+
+/// `phase` with what weights that are not quite the true ones do to a sinusoid, before everything else.
+fn with_weight_error(mut phase: Vec<Contribution>, pipeline: &Pipeline) -> Vec<Contribution> {
+    let scheme = &pipeline.modulation.scheme;
+    if scheme.weight_error_rad > 0.0 {
+        let contribution = Contribution {
+            name: "rounding of the weights",
+            phase_codes: scheme.weight_error_rad * f64::from(pipeline.output.phase_bits).exp2() / TAU,
+            why: format!(
+                "of a sinusoid over constant light: the sums of the weights times it, with {} weights instead of the true \
+                 ones, turn by so much at most; constant light adds nothing, as the weights add up to 0",
+                scheme.name
+            ),
+        };
+        phase.insert(0, contribution);
+    }
+    phase
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Every number that follows from a specification: widths with the bound that makes them safe, constants, latency.
 
 use super::exact::{self, ScaledConstant};
-use super::{AngleSpecification, AngleUnit, Specification, Word, refused};
+use super::storage::{self, Storage};
+use super::{AngleSpecification, AngleUnit, Atan, Specification, Word, refused};
 use crate::problem::Result;
 
 /// What follows from a [`Specification`]; every field's doc is the proof of its bound.
@@ -18,8 +19,12 @@ pub struct Derived {
     pub quadrature: Word,
     /// Offset sum, by the same bound; its weights are positive.
     pub offset_sum: Word,
-    /// Bits of a pixel's word in the sum memory: the three sums and the saturation flag.
+    /// What is kept of a pixel's sums while frames arrive.
+    pub storage: Storage,
+    /// Bits of a pixel's word in the sum memory: what is kept, and the saturation flag.
     pub memory_word_bits: u32,
+    /// Widths of the columns of the memory, lowest bits first.
+    pub memory_columns: Vec<u32>,
     /// Bits of the sum memory.
     pub memory_bits: usize,
     /// The angle unit: from (in-phase, quadrature) to the phase. Its metric is the square of the scheme's irrational.
@@ -44,6 +49,9 @@ pub struct Derived {
     pub latency_clocks: u32,
 }
 
+/// Widest sum: the model holds every product in 64 bits.
+const MOST_VECTOR_BITS: u32 = 56;
+
 /// Significant bits of a factor beyond those of its result. A multiplier of n bits is off by at most half of its last bit, a
 /// relative error of 2^-n, so that a result of n - 4 bits is off by less than 1/16 code.
 const FACTOR_GUARD_BITS: u32 = 4;
@@ -52,7 +60,7 @@ impl Derived {
     /// Derives everything; `source` is the name that a refusal gives.
     pub(super) fn new(source: &str, specification: &Specification) -> Result<Self> {
         let Specification { sensor, modulation, cordic, output, .. } = specification;
-        let scheme = modulation.scheme;
+        let scheme = &modulation.scheme;
         let frames_per_step = modulation.frames_per_step as i64;
         let sample = Word::unsigned(sensor.adc_bits);
         let bounds = |weights: &[i64]| {
@@ -61,18 +69,28 @@ impl Derived {
             (total(-1), total(1))
         };
         let word = |(low, high)| Word::holding(low, high);
-        let (in_phase, quadrature) = (bounds(scheme.in_phase), bounds(scheme.quadrature));
-        let offset_sum = bounds(scheme.offset);
-        let memory_word_bits = word(in_phase).bits + word(quadrature).bits + word(offset_sum).bits + 1;
+        let (in_phase, quadrature) = (bounds(&scheme.in_phase), bounds(&scheme.quadrature));
+        let offset_sum = bounds(&scheme.offset);
+        let storage = Storage::new(scheme, frames_per_step * sample.max());
+        let memory_word_bits = storage.bits() + 1;
 
+        let vector_bits = word(in_phase).bits.max(word(quadrature).bits);
+        if vector_bits > MOST_VECTOR_BITS {
+            return Err(refused(source, "modulation.scheme", &scheme.name)
+                .expected(format_args!(
+                    "weights, ADC bits and frames a step that make sums of at most {MOST_VECTOR_BITS} bits (these need \
+                     {vector_bits})"
+                ))
+                .remedy("take smaller weights, or fewer frames a step"));
+        }
         let largest = |(low, high): (i64, i64)| high.max(-low);
         let metric = scheme.irrational.squared();
-        let divisor = scheme.gain * frames_per_step;
+        let divisor = scheme.gain * frames_per_step as f64;
         let amplitude_scale = 2f64.powi(output.amplitude_fraction_bits as i32);
         let largest_vector =
             (largest(in_phase) as f64).hypot((metric as f64).sqrt() * largest(quadrature) as f64);
         let amplitude_word = |relative: f64| {
-            let codes = largest_vector / divisor as f64 * amplitude_scale * (1.0 + relative);
+            let codes = largest_vector / divisor * amplitude_scale * (1.0 + relative);
             Word::holding(0, codes.ceil() as i64 + 1)
         };
         // The length must be as exact as a quarter of the amplitude's code at full scale.
@@ -85,6 +103,7 @@ impl Derived {
                 metric,
                 phase_bits: output.phase_bits,
                 length_bits,
+                atan: Atan::Cordic,
                 cordic: cordic.clone(),
             },
         )?;
@@ -92,6 +111,11 @@ impl Derived {
         // Amplitude: |v| = length / gain · 2^(magnitude_bits − 1 − fraction_bits − shift), A = |v| / divisor.
         let relative = angle.budget().length_relative.min(1.0);
         let amplitude = amplitude_word(relative + f64::from(FACTOR_GUARD_BITS).exp2().recip());
+        if angle.length_word().bits + amplitude.bits + FACTOR_GUARD_BITS > 63 {
+            return Err(refused(source, "output.amplitude_fraction_bits", output.amplitude_fraction_bits)
+                .expected("an amplitude whose product with its factor has at most 63 bits")
+                .remedy("take fewer, or weights that add up to more of the amplitude"));
+        }
         let exponent = i64::from(output.amplitude_fraction_bits) + i64::from(angle.magnitude_bits)
             - 1
             - i64::from(angle.fraction_bits);
@@ -123,6 +147,11 @@ impl Derived {
 
         let offset_divisor = scheme.offset_gain() * frames_per_step;
         let offset = Word::unsigned(sensor.adc_bits + output.offset_fraction_bits);
+        if word(offset_sum).bits + offset.bits + FACTOR_GUARD_BITS > 63 {
+            return Err(refused(source, "modulation.scheme.offset", format_args!("{:?}", scheme.offset))
+                .expected("weights whose sum's product with its factor has at most 63 bits")
+                .remedy("take smaller weights, or fewer output.offset_fraction_bits"));
+        }
         let offset_factor = exact::ratio_factor(
             offset_divisor,
             output.offset_fraction_bits.into(),
@@ -159,7 +188,9 @@ impl Derived {
             in_phase: word(in_phase),
             quadrature: word(quadrature),
             offset_sum: word(offset_sum),
+            storage,
             memory_word_bits,
+            memory_columns: storage::columns(memory_word_bits, sensor.width * sensor.height),
             memory_bits: memory_word_bits as usize * sensor.width * sensor.height,
             angle,
             phase: Word::unsigned(output.phase_bits),

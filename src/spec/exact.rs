@@ -2,6 +2,7 @@
 //!
 //! Nothing here uses `f64` functions: results are correctly rounded integers.
 
+use super::step_angle::StepAngle;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
@@ -35,6 +36,13 @@ fn angle_gain(metric: i64, x_iterations: u32) -> Real {
     let stretch = |i: u32| integer(1) + integer(metric) * power_of_two(-2 * i64::from(i));
     let squared = (0..=x_iterations).map(stretch).fold(integer(1), |product, factor| product * factor);
     squared.sqrt() * (integer(1) + integer(1) / stretch(x_iterations).sqrt()) / integer(2)
+}
+
+/// Cosine and sine of `angle`.
+pub(super) fn cosine_and_sine(angle: StepAngle) -> (Real, Real) {
+    let turn = Real::pi(PRECISION_BITS) * integer(2);
+    let (sine, cosine) = (turn * integer(angle.numerator()) / integer(angle.denominator())).sin_cos();
+    (cosine, sine)
 }
 
 /// The angle unit's gain as an `f64`, for reports.
@@ -87,11 +95,11 @@ impl ScaledConstant {
 pub fn amplitude_factor(
     metric: i64,
     x_iterations: u32,
-    divisor: i64,
+    divisor: f64,
     exponent: i64,
     bits: u32,
 ) -> Option<ScaledConstant> {
-    let gain = angle_gain(metric, x_iterations) * integer(divisor);
+    let gain = angle_gain(metric, x_iterations) * of_f64(divisor);
     ScaledConstant::new(&(power_of_two(exponent) / gain), bits)
 }
 

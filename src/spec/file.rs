@@ -3,8 +3,8 @@
 use super::angle::{read_cordic, write_cordic};
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Modulation, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order, refused,
-    scheme, scheme_names, sequence,
+    Modulation, Multipliers, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order,
+    refused, scheme_file, sequence,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -58,15 +58,21 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     };
 
     let modulation = top.section("modulation")?;
-    modulation.only(&["scheme", "frequency_hz", "frames_per_step", "order", "phase_step_bits"])?;
-    let one_of = format!("one of {}", scheme_names());
-    let scheme =
-        scheme(modulation.text("scheme", &one_of)?).ok_or_else(|| modulation.refuse("scheme", &one_of))?;
+    modulation.only(&[
+        "scheme",
+        "frequency_hz",
+        "frames_per_step",
+        "frames",
+        "coefficient_bits",
+        "order",
+        "phase_step_bits",
+    ])?;
+    let scheme = scheme_file::read(source, &modulation)?;
     let modulation = Modulation {
-        scheme,
         frequency_hz: modulation.number("frequency_hz", 1e4..=1e10, "Hz")?,
         frames_per_step: modulation.integer_or("frames_per_step", 1..=256, 1)? as usize,
-        order: order(&modulation, scheme)?,
+        order: order(&modulation, &scheme)?,
+        scheme,
         phase_step_bits: modulation.integer_or("phase_step_bits", 2..=24, DEFAULT_PHASE_STEP_BITS.into())?
             as u32,
     };
@@ -82,7 +88,17 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         "offset_fraction_bits",
         "distance_unit_m",
         "minimum_amplitude_dn",
+        "multipliers",
     ])?;
+    let kinds = MULTIPLIERS.map(|row| format!("\"{}\"", row.0)).join(" or ");
+    let multipliers = match output.has("multipliers") {
+        false => Multipliers::Dsp,
+        true => {
+            let name = output.text("multipliers", &kinds)?;
+            let known = MULTIPLIERS.iter().find(|row| row.0 == name);
+            known.ok_or_else(|| output.refuse("multipliers", &kinds))?.1
+        }
+    };
     let output = Output {
         phase_bits: output.integer("phase_bits", 8..=24)? as u32,
         amplitude: output.flag_or("amplitude", true)?,
@@ -90,6 +106,7 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         offset_fraction_bits: output.integer("offset_fraction_bits", 0..=8)? as u32,
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
         minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
+        multipliers,
     };
     Ok(Specification { name, sensor, modulation, cordic, output, registers: registers(&top)? })
 }
@@ -119,6 +136,9 @@ fn registers(top: &Fields) -> Result<RegisterBlock> {
         frequency_factor: registers.integer_or("frequency_factor", 0..=u32::MAX.into(), 0)? as u32,
     })
 }
+
+const MULTIPLIERS: [(&str, Multipliers); 2] =
+    [("dsp", Multipliers::Dsp), ("shift_add", Multipliers::ShiftAdd)];
 
 pub(super) const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
 
@@ -180,11 +200,11 @@ pub(super) fn write(specification: &Specification) -> String {
          \n[sensor]\n\
          width = {}\nheight = {}\nadc_bits = {}\nsaturation_dn = {}\nline_blanking_clocks = {}\n\
          \n[modulation]\n\
-         scheme = \"{}\"\nfrequency_hz = {:?}\nframes_per_step = {}\n\
-         order = {:?}\nphase_step_bits = {}\n\
+         {}frequency_hz = {:?}\nframes_per_step = {}\n\
+         order = {:?}\nphase_step_bits = {}\n{}\
          \n{}\n[output]\n\
          phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
-         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
+         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\nmultipliers = \"{}\"\n\
          \n[registers]\n\
          axi4_lite = {}\nfrequency_factor = {}\n",
         sensor.width,
@@ -192,11 +212,12 @@ pub(super) fn write(specification: &Specification) -> String {
         sensor.adc_bits,
         sensor.saturation_dn,
         sensor.line_blanking_clocks,
-        modulation.scheme.name,
+        scheme_file::fields(&modulation.scheme),
         modulation.frequency_hz,
         modulation.frames_per_step,
         modulation.steps_in_order(),
         modulation.phase_step_bits,
+        scheme_file::table(&modulation.scheme),
         write_cordic(cordic),
         output.phase_bits,
         output.amplitude,
@@ -204,6 +225,7 @@ pub(super) fn write(specification: &Specification) -> String {
         output.offset_fraction_bits,
         output.distance_unit_m,
         output.minimum_amplitude_dn,
+        MULTIPLIERS.iter().find(|row| row.1 == output.multipliers).map_or("", |row| row.0),
         registers.axi4_lite,
         registers.frequency_factor,
     )

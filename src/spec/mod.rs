@@ -7,29 +7,41 @@ mod angle;
 mod budget;
 mod derived;
 mod design;
+mod dft;
 pub mod exact;
 mod file;
+mod poly;
 mod presets;
 mod registers;
+mod response;
+mod row;
 mod scheme;
+mod scheme_file;
 mod sequence;
+mod step_angle;
+mod storage;
 mod word;
 
 pub use angle::{
-    AngleBudget, AngleCore, AngleGroup, AngleSpecification, AngleUnit, Architecture, Cordic,
+    AngleBudget, AngleCore, AngleGroup, AngleSpecification, AngleUnit, Architecture, Atan, Cordic,
     ONE_ITERATION_A_CLOCK, Rounding, StageWord, Stages, Throughput,
 };
 pub use budget::{Contribution, ErrorBudget};
 pub use derived::Derived;
 pub use design::Design;
+pub use dft::{COEFFICIENT_BITS, DFT_FRAMES};
 pub use exact::ScaledConstant;
+pub use poly::{Arctangent, MULTIPLIER_CLOCKS, Poly, PolySpecification, Reciprocal, Tables};
 pub use presets::{ANGLE_PRESETS, PRESETS, Preset};
 pub use registers::{
     ADDRESS_BITS, Content, Counter, IDENTIFICATION, REGISTER_BYTES, REGISTERS, Register, RegisterBlock,
     register_at,
 };
-pub use scheme::{Irrational, SCHEMES, Scheme, scheme, scheme_names};
+pub use row::{Row, offset_weights};
+pub use scheme::{Irrational, SCHEMES, Scheme, SchemeOrigin, scheme, scheme_names};
 pub use sequence::normalised_order;
+pub use step_angle::StepAngle;
+pub use storage::{Storage, StoredSum};
 pub use word::Word;
 
 use crate::frames::Geometry;
@@ -54,8 +66,8 @@ pub struct Sensor {
 /// Modulation and phase stepping.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modulation {
-    /// The row of [`SCHEMES`].
-    pub scheme: &'static Scheme,
+    /// How a phase is made of the raw frames: a row of [`SCHEMES`], a DFT, or a row of the specification's own.
+    pub scheme: Scheme,
     /// Modulation frequency, Hz, 10 kHz to 10 GHz.
     pub frequency_hz: f64,
     /// Raw frames accumulated for one phase step, 1 to 256.
@@ -81,6 +93,17 @@ pub struct Output {
     pub distance_unit_m: f64,
     /// A pixel of less amplitude is marked invalid, DN.
     pub minimum_amplitude_dn: f64,
+    /// What the constant factors of amplitude, offset and distance are made of.
+    pub multipliers: Multipliers,
+}
+
+/// What a multiplication by a constant is made of. The products are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Multipliers {
+    /// Left to synthesis as a product: DSP blocks, where the device has them.
+    Dsp,
+    /// Shifts and adds, one for each digit of the factor's canonical signed-digit form that is not 0: no DSP block.
+    ShiftAdd,
 }
 
 /// What a user specifies.

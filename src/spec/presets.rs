@@ -21,6 +21,8 @@ pub const ANGLE_PRESETS: &[Preset] = &[
     Preset { name: "angle-16", text: include_str!("presets/angle-16.toml") },
     Preset { name: "angle-16-folded", text: include_str!("presets/angle-16-folded.toml") },
     Preset { name: "angle-16-iterative", text: include_str!("presets/angle-16-iterative.toml") },
+    Preset { name: "angle-16-poly", text: include_str!("presets/angle-16-poly.toml") },
+    Preset { name: "angle-16-poly-memory", text: include_str!("presets/angle-16-poly-memory.toml") },
 ];
 
 #[cfg(test)]

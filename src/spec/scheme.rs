@@ -1,7 +1,9 @@
 //! Phase schemes: which raw frames a phase is made of, and with which weights. One row each.
 
+use super::step_angle::StepAngle;
 use num_complex::Complex64;
-use std::f64::consts::TAU;
+use std::borrow::Cow;
+use std::fmt;
 
 /// The factor by which the quadrature sum's integer weights fall short of the true ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,54 +22,109 @@ impl Irrational {
             Self::Sqrt3 => 3,
         }
     }
+
+    /// Reads "1" or "sqrt(3)".
+    pub fn parse(text: &str) -> Option<Self> {
+        [Self::One, Self::Sqrt3].into_iter().find(|irrational| irrational.to_string() == text)
+    }
 }
 
-/// A way of making a phase from raw frames I_n = A cos(n δ − φ) + B, n = 0, 1, …:
+impl fmt::Display for Irrational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::One => "1",
+            Self::Sqrt3 => "sqrt(3)",
+        })
+    }
+}
+
+/// Where a scheme's weights come from: what a specification says of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SchemeOrigin {
+    /// A row of [`SCHEMES`].
+    Named,
+    /// Cosines and sines rounded to so many bits, sign included: [`Scheme::dft`].
+    Dft {
+        /// The bits.
+        coefficient_bits: u32,
+    },
+    /// A row that the specification gives: [`Scheme::of_row`].
+    Row,
+}
+
+/// A way of making a phase from raw frames I_n = A cos(angle_n − φ) + B, n = 0, 1, …:
 /// tan φ = factor · Σ quadrature_n I_n / Σ in_phase_n I_n.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Scheme {
     /// What a specification and a command line call it.
-    pub name: &'static str,
-    /// The phase step δ as a fraction of a turn: numerator and denominator.
-    pub step_turns: (u32, u32),
-    /// Weights of the in-phase sum, which is gain · A cos φ.
-    pub in_phase: &'static [i64],
-    /// Weights of the quadrature sum, which is gain · A sin φ / factor.
-    pub quadrature: &'static [i64],
-    /// Weights of the offset sum, blind to the fundamental; they add up to the offset's gain.
-    pub offset: &'static [i64],
+    pub name: Cow<'static, str>,
+    /// The phase steps' angles, one a step.
+    pub angles: Cow<'static, [StepAngle]>,
+    /// Weights of the in-phase sum, which is gain · A cos φ. They add up to 0.
+    pub in_phase: Cow<'static, [i64]>,
+    /// Weights of the quadrature sum, which is gain · A sin φ / factor. They add up to 0.
+    pub quadrature: Cow<'static, [i64]>,
+    /// Weights of the offset sum, none negative, blind to the fundamental; they add up to the offset's gain.
+    pub offset: Cow<'static, [i64]>,
     /// What the quadrature sum is still to be multiplied by.
     pub irrational: Irrational,
     /// The in-phase sum's gain: sum = gain · A cos φ.
-    pub gain: i64,
+    pub gain: f64,
+    /// Largest error of a sinusoid's phase, rad, that comes from weights which are not quite the true ones; 0 where they
+    /// are.
+    pub weight_error_rad: f64,
+    /// The same of its amplitude, relative.
+    pub weight_error_amplitude: f64,
+    /// Where the weights come from.
+    pub origin: SchemeOrigin,
     /// Where it comes from.
-    pub reference: &'static str,
+    pub reference: Cow<'static, str>,
 }
 
-/// All schemes, in the order in which `--scheme auto` tries them.
+/// All named schemes, in the order in which `--scheme auto` tries them.
 pub const SCHEMES: &[Scheme] = &[
     Scheme {
-        name: "four_frame",
-        step_turns: (1, 4),
-        in_phase: &[1, 0, -1, 0],
-        quadrature: &[0, 1, 0, -1],
-        offset: &[1, 1, 1, 1],
+        name: Cow::Borrowed("four_frame"),
+        angles: Cow::Borrowed(&[
+            StepAngle::of(0, 1),
+            StepAngle::of(1, 4),
+            StepAngle::of(1, 2),
+            StepAngle::of(3, 4),
+        ]),
+        in_phase: Cow::Borrowed(&[1, 0, -1, 0]),
+        quadrature: Cow::Borrowed(&[0, 1, 0, -1]),
+        offset: Cow::Borrowed(&[1, 1, 1, 1]),
         irrational: Irrational::One,
-        gain: 2,
-        reference: "Drayton, Carnegie, Dorrington 2012: phase = atan2(I2 - I4, I1 - I3)",
+        gain: 2.0,
+        weight_error_rad: 0.0,
+        weight_error_amplitude: 0.0,
+        origin: SchemeOrigin::Named,
+        reference: Cow::Borrowed("Drayton, Carnegie, Dorrington 2012: phase = atan2(I2 - I4, I1 - I3)"),
     },
     Scheme {
-        name: "wdft",
-        step_turns: (1, 3),
-        in_phase: &[2, -2, -3, 4, -1],
-        quadrature: &[0, 2, -3, 0, 1],
+        name: Cow::Borrowed("wdft"),
+        angles: Cow::Borrowed(&[
+            StepAngle::of(0, 1),
+            StepAngle::of(1, 3),
+            StepAngle::of(2, 3),
+            StepAngle::of(1, 1),
+            StepAngle::of(4, 3),
+        ]),
+        in_phase: Cow::Borrowed(&[2, -2, -3, 4, -1]),
+        quadrature: Cow::Borrowed(&[0, 2, -3, 0, 1]),
         // The weights 1 2 3 2 1 have double roots at both harmonics 1 and -1: neither the fundamental nor
         // a linear step error leaks into the offset, as it would into a plain mean of five frames.
-        offset: &[1, 2, 3, 2, 1],
+        offset: Cow::Borrowed(&[1, 2, 3, 2, 1]),
         irrational: Irrational::Sqrt3,
-        gain: 9,
-        reference: "Surrel 1996; Drayton, Carnegie, Dorrington 2012: \
-                    phase = atan2(sqrt(3) (2 I2 - 3 I3 + I5), 2 I1 - 2 I2 - 3 I3 + 4 I4 - I5)",
+        gain: 9.0,
+        weight_error_rad: 0.0,
+        weight_error_amplitude: 0.0,
+        origin: SchemeOrigin::Named,
+        reference: Cow::Borrowed(
+            "Surrel 1996; Drayton, Carnegie, Dorrington 2012: \
+             phase = atan2(sqrt(3) (2 I2 - 3 I3 + I5), 2 I1 - 2 I2 - 3 I3 + 4 I4 - I5)",
+        ),
     },
 ];
 
@@ -76,9 +133,10 @@ pub fn scheme(name: &str) -> Option<&'static Scheme> {
     SCHEMES.iter().find(|scheme| scheme.name == name)
 }
 
-/// The names of all schemes, for a refusal.
+/// What a specification may say instead of a scheme's name, for a refusal.
 pub fn scheme_names() -> String {
-    SCHEMES.iter().map(|scheme| scheme.name).collect::<Vec<_>>().join(", ")
+    let names: Vec<_> = SCHEMES.iter().map(|scheme| &*scheme.name).collect();
+    format!("{}, dft, or a table [modulation.scheme] with weights of your own", names.join(", "))
 }
 
 impl Scheme {
@@ -87,9 +145,26 @@ impl Scheme {
         self.in_phase.len()
     }
 
-    /// The phase step δ in radians.
-    pub fn step_rad(&self) -> f64 {
-        TAU * f64::from(self.step_turns.0) / f64::from(self.step_turns.1)
+    /// The angle of phase step `step` in radians.
+    pub fn angle_rad(&self, step: usize) -> f64 {
+        self.angles[step].rad()
+    }
+
+    /// The angle between each phase step and the next, where all are the same and the first is at 0.
+    pub fn equal_step(&self) -> Option<StepAngle> {
+        equal_step(&self.angles)
+    }
+
+    /// The phase steps in words, such as "5 phase steps of 1/3 turn".
+    pub fn steps_in_words(&self) -> String {
+        let steps = self.steps();
+        match self.equal_step() {
+            Some(step) => format!("{steps} phase steps of {step} turn"),
+            None => {
+                let angles: Vec<String> = self.angles.iter().map(ToString::to_string).collect();
+                format!("{steps} phase steps at {} turn", angles.join(", "))
+            }
+        }
     }
 
     /// What the offset sum must be divided by.
@@ -97,45 +172,87 @@ impl Scheme {
         self.offset.iter().sum()
     }
 
-    /// Coefficients c_n of the characteristic polynomial P(x) = Σ c_n xⁿ (Surrel 1996), in the paper's sign of
-    /// φ: c_n = in_phase_n + i · factor · quadrature_n, so that φ = arg Σ c_n I_n.
+    /// Coefficients c_n = in_phase_n + i · factor · quadrature_n, in the paper's sign of φ, so that φ = arg Σ c_n I_n. With
+    /// equal steps they are those of the characteristic polynomial P(x) = Σ c_n xⁿ (Surrel 1996).
     pub fn characteristic_polynomial(&self) -> Vec<Complex64> {
         let factor = (self.irrational.squared() as f64).sqrt();
         self.in_phase
             .iter()
-            .zip(self.quadrature)
+            .zip(&*self.quadrature)
             .map(|(&i, &q)| Complex64::new(i as f64, factor * q as f64))
             .collect()
     }
 
-    /// How many times P(x) has the root exp(i m δ): 0 where harmonic m comes through.
+    /// What the coefficients would be without rounding, at the same gain: those of [`Scheme::characteristic_polynomial`],
+    /// but for a DFT.
+    pub fn true_coefficients(&self) -> Vec<Complex64> {
+        match self.origin {
+            SchemeOrigin::Named | SchemeOrigin::Row => self.characteristic_polynomial(),
+            SchemeOrigin::Dft { .. } => {
+                let length = 2.0 * self.gain / self.steps() as f64;
+                self.angles.iter().map(|angle| Complex64::from_polar(length, angle.rad())).collect()
+            }
+        }
+    }
+
+    /// How many times P(x) has the root exp(i m δ): 0 where harmonic m comes through. Of unequal steps, the order up to which
+    /// the harmonic is rejected under a linear error of the steps, which for equal ones is the same:
+    /// Σ c_n angle_n^k exp(i m angle_n) = 0 for k = 0 … multiplicity − 1.
     pub fn root_multiplicity(&self, harmonic: i32) -> usize {
-        let root = Complex64::from_polar(1.0, f64::from(harmonic) * self.step_rad());
-        let mut polynomial = self.characteristic_polynomial();
-        let scale: f64 = polynomial.iter().map(|c| c.norm()).sum();
+        let first = self.angles[0].turns();
+        let furthest = self.angles.iter().map(|angle| (angle.turns() - first).abs()).fold(0.0, f64::max);
+        let mut terms: Vec<(Complex64, f64)> = self
+            .characteristic_polynomial()
+            .into_iter()
+            .zip(&*self.angles)
+            .map(|(c, angle)| {
+                let root = Complex64::from_polar(1.0, f64::from(harmonic) * angle.rad());
+                (c * root, (angle.turns() - first) / furthest)
+            })
+            .collect();
         let mut multiplicity = 0;
-        while polynomial.len() > 1 {
-            let value = polynomial.iter().rev().fold(Complex64::ZERO, |sum, c| sum * root + c);
+        while multiplicity + 1 < self.steps() {
+            let value: Complex64 = terms.iter().map(|(term, _)| term).sum();
+            let scale: f64 = terms.iter().map(|(term, _)| term.norm()).sum();
             if value.norm() > 1e-9 * scale {
                 break;
             }
             multiplicity += 1;
-            polynomial = polynomial.iter().enumerate().skip(1).map(|(n, c)| c * n as f64).collect();
+            terms.iter_mut().for_each(|(term, angle)| *term *= *angle);
         }
         multiplicity
+    }
+
+    /// Largest share of the vector at amplitude 1 that harmonic `harmonic` of the same amplitude adds to it.
+    pub fn harmonic_leakage(&self, harmonic: i32) -> f64 {
+        let part = |m: i32| -> f64 {
+            let terms = self.characteristic_polynomial().into_iter().zip(&*self.angles);
+            let sum: Complex64 =
+                terms.map(|(c, angle)| c * Complex64::from_polar(1.0, f64::from(m) * angle.rad())).sum();
+            sum.norm()
+        };
+        (part(harmonic) + part(-harmonic)) / (2.0 * self.gain)
     }
 
     /// Noise factor: the phase's standard deviation in radians times amplitude over the frames' noise,
     /// σ_φ A / σ = √(Σ|c_n|²/2) / gain for white noise.
     pub fn noise_factor(&self) -> f64 {
         let power: f64 = self.characteristic_polynomial().iter().map(|c| c.norm_sqr()).sum();
-        (power / 2.0).sqrt() / self.gain as f64
+        (power / 2.0).sqrt() / self.gain
     }
+}
+
+/// See [`Scheme::equal_step`].
+pub(super) fn equal_step(angles: &[StepAngle]) -> Option<StepAngle> {
+    let step = *angles.get(1)?;
+    let expected = (0..).map(|n| step.times(n));
+    angles.iter().zip(expected).all(|(&angle, expected)| angle == expected).then_some(step)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     /// Every row says what it claims: on I_n = A cos(nδ − φ) + B its sums are gain·A cos φ, gain·A sin φ and gain·B.
     #[test]
@@ -147,19 +264,19 @@ mod tests {
             for step in 0..24 {
                 let phase = TAU * f64::from(step) / 24.0;
                 let frames: Vec<f64> = (0..scheme.steps())
-                    .map(|n| 100.0 * (n as f64 * scheme.step_rad() - phase).cos() + 300.0)
+                    .map(|n| 100.0 * (scheme.angle_rad(n) - phase).cos() + 300.0)
                     .collect();
                 let sum = |weights: &[i64]| -> f64 {
                     weights.iter().zip(&frames).map(|(&w, frame)| w as f64 * frame).sum()
                 };
-                let gain = scheme.gain as f64;
-                assert!((sum(scheme.in_phase) - gain * 100.0 * phase.cos()).abs() < 1e-9, "{}", scheme.name);
+                let gain = scheme.gain;
+                assert!((sum(&scheme.in_phase) - gain * 100.0 * phase.cos()).abs() < 1e-9, "{}", scheme.name);
                 assert!(
-                    (factor * sum(scheme.quadrature) - gain * 100.0 * phase.sin()).abs() < 1e-9,
+                    (factor * sum(&scheme.quadrature) - gain * 100.0 * phase.sin()).abs() < 1e-9,
                     "{}",
                     scheme.name
                 );
-                assert!((sum(scheme.offset) - scheme.offset_gain() as f64 * 300.0).abs() < 1e-9);
+                assert!((sum(&scheme.offset) - scheme.offset_gain() as f64 * 300.0).abs() < 1e-9);
             }
         }
     }

@@ -26,9 +26,10 @@ impl Modulation {
     /// The phase of the scheme's step number `step`, in 2^−`phase_step_bits` of a turn, rounded to nearest (halves up), whole
     /// turns left out.
     pub fn step_phase_code(&self, step: usize) -> i64 {
-        let (numerator, denominator) = self.scheme.step_turns;
-        let (turns, denominator) = (step as i64 * i64::from(numerator), i64::from(denominator));
-        let code = (((turns % denominator) << (self.phase_step_bits + 1)) + denominator) / (2 * denominator);
+        let angle = self.scheme.angles[step];
+        let (turns, denominator) = (angle.numerator(), angle.denominator());
+        let code =
+            ((turns.rem_euclid(denominator) << (self.phase_step_bits + 1)) + denominator) / (2 * denominator);
         code & ((1 << self.phase_step_bits) - 1)
     }
 }
@@ -88,9 +89,9 @@ mod tests {
     #[test]
     fn an_order_is_kept_only_where_it_is_not_ascending() {
         let wdft = modulation("vuris", 16).scheme;
-        assert_eq!(normalised_order(wdft, vec![0, 1, 2, 3, 4]), None);
+        assert_eq!(normalised_order(&wdft, vec![0, 1, 2, 3, 4]), None);
         for order in [vec![0, 2, 1, 3, 4], vec![0, 1, 2], vec![0, 1, 2, 3, 4, 5], vec![]] {
-            assert_eq!(normalised_order(wdft, order.clone()), Some(order));
+            assert_eq!(normalised_order(&wdft, order.clone()), Some(order));
         }
         let permuted = Modulation { order: Some(vec![0, 3, 1, 4, 2]), ..modulation("vuris", 16) };
         assert_eq!((0..5).map(|place| permuted.step_at(place)).collect::<Vec<_>>(), [0, 3, 1, 4, 2]);

@@ -1,7 +1,7 @@
 //! One point of the design space: the fields of an angle unit's specification that a sweep varies.
 
 use crate::problem::{Problem, Result};
-use crate::spec::{AngleSpecification, AngleUnit, Cordic, Rounding, Throughput};
+use crate::spec::{AngleSpecification, AngleUnit, Atan, Cordic, Rounding, Throughput};
 use std::fmt;
 
 /// An angle unit with both words of at most 30 bits.
@@ -66,9 +66,9 @@ pub fn throughput_named(name: &str) -> Option<Throughput> {
 }
 
 impl Configuration {
-    /// The configuration of `specification`.
+    /// The configuration of `specification`, a CORDIC's.
     pub fn of(specification: &AngleSpecification) -> Self {
-        let &AngleSpecification { x_bits, y_bits, metric, phase_bits, length_bits, ref cordic } =
+        let &AngleSpecification { x_bits, y_bits, metric, phase_bits, length_bits, ref cordic, .. } =
             specification;
         Self {
             metric,
@@ -94,6 +94,7 @@ impl Configuration {
             metric: self.metric,
             phase_bits: self.phase_bits,
             length_bits: self.length_bits,
+            atan: Atan::Cordic,
             cordic: Cordic {
                 iterations: self.iterations,
                 vector_guard_bits: self.vector_guard_bits,

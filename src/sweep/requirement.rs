@@ -38,9 +38,9 @@ impl SensorNoise {
             )));
         }
         let frames = pipeline.modulation.frames_per_step as f64;
-        let scheme = pipeline.modulation.scheme;
+        let scheme = &pipeline.modulation.scheme;
         let sigma_e = ((offset_e + sensor.read_noise_e * sensor.read_noise_e) / frames).sqrt();
-        let length = scheme.gain as f64 * frames * amplitude_dn;
+        let length = scheme.gain * frames * amplitude_dn;
         Ok(Self {
             turns: scheme.noise_factor() * sigma_e / amplitude_e / TAU,
             octave: length.log2().floor() as u32,

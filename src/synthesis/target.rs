@@ -51,7 +51,7 @@ impl Target {
     pub fn of_pipeline(pipeline: &Pipeline, spec: &str) -> Result<Self> {
         let artifacts = rtl_artifacts(&Source { pipeline, spec });
         let verilog = verilog_of(artifacts);
-        let (sensor, scheme) = (&pipeline.sensor, pipeline.modulation.scheme.name);
+        let (sensor, scheme) = (&pipeline.sensor, &pipeline.modulation.scheme.name);
         Ok(Self {
             name: pipeline.name.clone(),
             purpose: format!(
@@ -74,6 +74,7 @@ impl Target {
             Architecture::Unrolled => "unrolled",
             Architecture::Folded { .. } => "folded",
             Architecture::Iterative => "iterative",
+            Architecture::Tables => "tables and multipliers",
         };
         Ok(Self {
             name: core.name.clone(),

@@ -79,8 +79,8 @@ class Core:
 
     def frames_of(self, turns, amplitude_dn, offset_dn):
         """Raw frames of a scene, [raw frame, pixel], as the scheme steps the phase; not noisy, rounded to codes."""
-        numerator, denominator = self.numbers["scheme"]["step_turns"]
-        step = np.repeat(np.arange(self.frames // self.repeats), self.repeats)[:, None] * numerator / denominator
+        angles = np.array([numerator / denominator for numerator, denominator in self.numbers["scheme"]["angles_turns"]])
+        step = np.repeat(angles, self.repeats)[:, None]
         dn = amplitude_dn * np.cos(2 * np.pi * (step - turns)) + offset_dn
         return np.clip(np.rint(dn), 0, self.full_scale).astype(np.int64)
 

@@ -75,6 +75,36 @@ impl Oracle {
         turns.mul(&BigFloat::from_i64(1 << bits, BITS), BITS, MODE)
     }
 
+    /// The exact plain DFT of `frames`: Σ I_n cos(n/N turn) and Σ I_n sin(n/N turn).
+    pub fn dft(&mut self, frames: &[i64]) -> (BigFloat, BigFloat) {
+        let zero = || BigFloat::from_i64(0, BITS);
+        let (mut x, mut y) = (zero(), zero());
+        for (n, &frame) in frames.iter().enumerate() {
+            let part = BigFloat::from_i64(n as i64, BITS).div(
+                &BigFloat::from_i64(frames.len() as i64, BITS),
+                BITS,
+                MODE,
+            );
+            let angle = part.mul(&self.turn, BITS, MODE);
+            let frame = BigFloat::from_i64(frame, BITS);
+            x = x.add(&frame.mul(&angle.cos(BITS, MODE, &mut self.consts), BITS, MODE), BITS, MODE);
+            y = y.add(&frame.mul(&angle.sin(BITS, MODE, &mut self.consts), BITS, MODE), BITS, MODE);
+        }
+        (x, y)
+    }
+
+    /// The angle of (x, y) as a fraction of a turn times 2^`bits`, in [0, 2^bits); x is not 0.
+    pub fn angle_codes(&mut self, x: &BigFloat, y: &BigFloat, bits: u32) -> f64 {
+        let ratio = y.div(x, BITS, MODE).atan(BITS, MODE, &mut self.consts).div(&self.turn, BITS, MODE);
+        let base = match (x.is_negative(), y.is_negative()) {
+            (true, _) => 0.5,
+            (false, true) => 1.0,
+            (false, false) => 0.0,
+        };
+        let turns = ratio.add(&BigFloat::from_f64(base, BITS), BITS, MODE);
+        to_f64(&turns.mul(&BigFloat::from_i64(1 << bits, BITS), BITS, MODE))
+    }
+
     /// The vector's length.
     pub fn length(&mut self, scheme: &str, in_phase: i64, quadrature: i64) -> f64 {
         let (x, y) = self.coordinates(scheme, in_phase, quadrature);

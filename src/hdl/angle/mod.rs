@@ -8,6 +8,7 @@ mod phase;
 mod unrolled;
 
 use super::angle_artifacts;
+use super::poly;
 use super::text::range;
 use crate::artifact::Artifact;
 use crate::spec::{AngleCore, AngleUnit, Architecture};
@@ -38,8 +39,12 @@ pub(super) struct AngleModule {
     pub render: fn(&AngleSource, String) -> askama::Result<String>,
 }
 
-fn is_iterative(architecture: Architecture) -> bool {
-    architecture == Architecture::Iterative
+fn is_pipelined_cordic(architecture: Architecture) -> bool {
+    matches!(architecture, Architecture::Unrolled | Architecture::Folded { .. })
+}
+
+fn is_tables(architecture: Architecture) -> bool {
+    architecture == Architecture::Tables
 }
 
 /// All modules, those that others are made of first.
@@ -47,13 +52,13 @@ pub(super) const ANGLE_MODULES: &[AngleModule] = &[
     AngleModule {
         noun: "normaliser",
         purpose: "Quadrant fold and leading-zero shift.",
-        belongs: |architecture| !is_iterative(architecture),
+        belongs: is_pipelined_cordic,
         render: normaliser::normaliser,
     },
     AngleModule {
         noun: "cordic",
         purpose: "CORDIC in vectoring mode.",
-        belongs: |architecture| !is_iterative(architecture),
+        belongs: is_pipelined_cordic,
         render: |source, banner| match source.unit.architecture {
             Architecture::Folded { stages, rounds } => folded::cordic(source, stages, rounds, banner),
             _ => unrolled::cordic(source, banner),
@@ -62,8 +67,32 @@ pub(super) const ANGLE_MODULES: &[AngleModule] = &[
     AngleModule {
         noun: "phase",
         purpose: "The phase of a turned vector, its fold undone.",
-        belongs: |architecture| !is_iterative(architecture),
+        belongs: is_pipelined_cordic,
         render: phase::phase,
+    },
+    AngleModule {
+        noun: "poly_multiplier",
+        purpose: "A multiplier with its registers.",
+        belongs: is_tables,
+        render: poly::multiplier,
+    },
+    AngleModule {
+        noun: "poly_octant",
+        purpose: "Octant fold and leading-zero shift.",
+        belongs: is_tables,
+        render: poly::octant,
+    },
+    AngleModule {
+        noun: "poly_reciprocal",
+        purpose: "The reciprocal of the larger coordinate.",
+        belongs: is_tables,
+        render: poly::reciprocal,
+    },
+    AngleModule {
+        noun: "poly_arctangent",
+        purpose: "The arctangent of a ratio.",
+        belongs: is_tables,
+        render: poly::arctangent,
     },
     AngleModule {
         noun: "angle",
@@ -71,6 +100,7 @@ pub(super) const ANGLE_MODULES: &[AngleModule] = &[
         belongs: |_| true,
         render: |source, banner| match source.unit.architecture {
             Architecture::Iterative => iterative::angle(source, banner),
+            Architecture::Tables => poly::angle(source, banner),
             _ => angle(source, banner),
         },
     },

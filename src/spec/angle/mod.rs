@@ -15,7 +15,7 @@ pub use core::AngleCore;
 pub use stages::{StageWord, Stages};
 pub use table::AngleGroup;
 
-use super::{Word, refused};
+use super::{Poly, PolySpecification, Tables, Word, refused};
 use crate::problem::Result;
 
 /// How often a new vector can come.
@@ -73,6 +73,15 @@ impl Cordic {
     }
 }
 
+/// How the arctangent is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Atan {
+    /// By the CORDIC's iterations.
+    Cordic,
+    /// By tables and multipliers: the phase alone, of metric 1.
+    Poly(Tables),
+}
+
 /// What an angle unit is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AngleSpecification {
@@ -86,7 +95,9 @@ pub struct AngleSpecification {
     pub phase_bits: u32,
     /// The vector's length is wanted, to a relative 2^−this; 0: the phase alone.
     pub length_bits: u32,
-    /// The CORDIC.
+    /// How the arctangent is found.
+    pub atan: Atan,
+    /// The CORDIC, where it is that.
     pub cordic: Cordic,
 }
 
@@ -104,6 +115,8 @@ pub enum Architecture {
     },
     /// One stage, its shift counted up by one a clock; the next vector is normalised meanwhile, a place a clock.
     Iterative,
+    /// Tables and multipliers: a vector a clock.
+    Tables,
 }
 
 /// An angle unit that works, and every number that follows from its specification.
@@ -129,6 +142,8 @@ pub struct AngleUnit {
     pub groups: Vec<AngleGroup>,
     /// Bits of the sector from which the angle is counted: quarter turns (2) or half turns (1).
     pub sector_bits: u32,
+    /// Tables and multipliers instead of all iterations: then only the widths of input and output above hold.
+    pub poly: Option<Poly>,
 }
 
 impl std::ops::Deref for AngleUnit {
@@ -144,11 +159,15 @@ impl AngleUnit {
     pub fn new(source: &str, specification: AngleSpecification) -> Result<Self> {
         check(source, &specification)?;
         let AngleSpecification { metric, phase_bits, cordic, .. } = &specification;
+        let poly = poly(source, &specification)?;
         let magnitude_bits = specification.x_bits.max(specification.y_bits) - 1;
-        let architecture = architecture(cordic, magnitude_bits);
+        let architecture = match specification.atan {
+            Atan::Cordic => architecture(cordic, magnitude_bits),
+            Atan::Poly(_) => Architecture::Tables,
+        };
         let iterations = match architecture {
             Architecture::Folded { stages, rounds } => stages * rounds,
-            Architecture::Unrolled | Architecture::Iterative => cordic.iterations,
+            Architecture::Unrolled | Architecture::Iterative | Architecture::Tables => cordic.iterations,
         };
         let levels = u32::BITS - magnitude_bits.leading_zeros();
         let shifts =
@@ -175,6 +194,7 @@ impl AngleUnit {
             angle_bits,
             groups,
             sector_bits: if *metric == 1 { 2 } else { 1 },
+            poly,
             specification,
         })
     }
@@ -201,7 +221,8 @@ impl AngleUnit {
 
     /// The word of the length: x after the last iteration, in 2^−`fraction_bits` of the normalised vector times the gain.
     pub fn length_word(&self) -> Word {
-        Word::unsigned(self.stages.x.last().map_or(1, |word| word.bits))
+        let iterated = self.stages.x.last().filter(|_| self.poly.is_none());
+        Word::unsigned(iterated.map_or(1, |word| word.bits))
     }
 
     /// Whether the unit gives the length.
@@ -209,9 +230,16 @@ impl AngleUnit {
         self.length_bits > 0
     }
 
+    /// The last iteration that changes x in unrolled hardware: where no length is asked for, nobody looks at x after the
+    /// last iteration but one.
+    pub fn last_x_iteration(&self) -> u32 {
+        let needed = if self.with_length() { self.iterations - 1 } else { self.iterations - 2 };
+        self.stages.x_iterations.min(needed)
+    }
+
     /// Steps of the unrolled iterations between which a register can stand: one an iteration, one more where y is tripled first.
     pub fn moves(&self) -> u32 {
-        let tripled = if self.metric == 3 { self.stages.x_iterations + 1 } else { 0 };
+        let tripled = if self.metric == 3 { self.last_x_iteration() + 1 } else { 0 };
         self.iterations + tripled
     }
 
@@ -224,9 +252,14 @@ impl AngleUnit {
     pub fn latency_clocks(&self) -> u32 {
         let levels = self.shifts.len() as u32;
         let registers = |moves: u32| moves.div_ceil(self.cordic.pipeline_every);
+        if let Some(poly) = &self.poly {
+            return poly.latency_clocks;
+        }
         match self.architecture {
             // Input, shifts, iterations, last direction, sum.
-            Architecture::Unrolled => 1 + registers(levels) + registers(self.moves()) + 1 + self.sum_clocks(),
+            Architecture::Unrolled | Architecture::Tables => {
+                1 + registers(levels) + registers(self.moves()) + 1 + self.sum_clocks()
+            }
             // Input, shifts, entry, rounds, sum.
             Architecture::Folded { rounds, stages } => 1 + levels + 1 + rounds * stages + self.sum_clocks(),
             // Input, start, iterations 0 to n - 1 and the last direction's, result.
@@ -237,7 +270,7 @@ impl AngleUnit {
     /// Clocks between two vectors at full load; for the iterative unit, of vectors that need `shift` places.
     pub fn clocks_a_vector(&self, shift: u32) -> u32 {
         match self.architecture {
-            Architecture::Unrolled => 1,
+            Architecture::Unrolled | Architecture::Tables => 1,
             Architecture::Folded { rounds, .. } => rounds,
             Architecture::Iterative => (self.iterations + 2).max(shift + 2),
         }
@@ -257,8 +290,25 @@ fn architecture(cordic: &Cordic, magnitude_bits: u32) -> Architecture {
     }
 }
 
+/// The unit by tables and multipliers, where it is that.
+fn poly(source: &str, specification: &AngleSpecification) -> Result<Option<Poly>> {
+    let AngleSpecification { x_bits, y_bits, metric, phase_bits, length_bits, .. } = *specification;
+    let Atan::Poly(tables) = specification.atan else { return Ok(None) };
+    let other = "choose atan = \"cordic\"";
+    if metric != 1 {
+        return Err(refused(source, "vector.metric", metric)
+            .expected("1 where atan = \"poly\"")
+            .remedy(other));
+    }
+    if length_bits != 0 {
+        let problem = refused(source, "output.length_bits", length_bits);
+        return Err(problem.expected("0 where atan = \"poly\": the phase alone").remedy(other));
+    }
+    Poly::new(source, PolySpecification { x_bits, y_bits, phase_bits, tables }).map(Some)
+}
+
 fn check(source: &str, specification: &AngleSpecification) -> Result<()> {
-    let AngleSpecification { x_bits, y_bits, metric, phase_bits, length_bits, cordic } = specification;
+    let AngleSpecification { x_bits, y_bits, metric, phase_bits, length_bits, cordic, .. } = specification;
     let cycles = match cordic.throughput {
         Throughput::CyclesPerPixel(clocks) => clocks,
         Throughput::OneIterationAClock => 1,
