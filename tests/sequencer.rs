@@ -145,7 +145,8 @@ fn every_order_of_four_steps_agrees_in_verilator() {
     support::two_at_a_time(&built, |order| {
         let pipeline = small("vuris-four-frame", |specification| {
             (specification.sensor.width, specification.sensor.height) = (4, 2);
-            specification.modulation.order = normalised_order(&specification.modulation.scheme, order.clone());
+            specification.modulation.order =
+                normalised_order(&specification.modulation.scheme, order.clone());
         });
         let golden = golden(&pipeline, &taken_in(order, &ascending, &raw));
         assert_eq!(golden.records, expected, "{order:?}");
