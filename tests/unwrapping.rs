@@ -281,14 +281,15 @@ fn cosimulated() -> Vec<(String, Pipeline)> {
             }),
         ),
     ];
-    for (number, base) in accepted(12).into_iter().enumerate() {
+    for (number, base) in accepted(10).into_iter().enumerate() {
         let ratio = RATIOS[number % RATIOS.len()];
         let changed = base.adapted("unwrapping", |specification| {
             specification.unwrapping = Some(unwrapping(ratio));
             specification.output.distance_unit_m *= ratio[0] as f64 * 4.0;
+            specification.output.minimum_amplitude_dn = 0.0;
         });
         all.extend(
-            changed.ok().map(|pipeline| (format!("any, {ratio:?}"), pipeline)).filter(|_| all.len() < 7),
+            changed.ok().map(|pipeline| (format!("any, {ratio:?}"), pipeline)).filter(|_| all.len() < 6),
         );
     }
     all
@@ -297,7 +298,7 @@ fn cosimulated() -> Vec<(String, Pipeline)> {
 #[test]
 fn unwrapping_agrees_in_both_simulators() {
     let all = cosimulated();
-    assert!(all.len() >= 6, "most random specifications must be accepted");
+    assert!(all.len() == 6, "most random specifications must be accepted");
     let runs: Vec<_> = all.iter().flat_map(|row| Simulator::ALL.map(|simulator| (row, simulator))).collect();
     let values = two_at_a_time(&runs, |&((name, pipeline), simulator)| {
         let mut scenario = everything(pipeline, 11);
