@@ -48,7 +48,7 @@ fn number_after(text: &str, before: &str) -> f64 {
 
 #[test]
 fn help_names_every_command_and_every_option() {
-    let commands: [(&str, &[&str]); 7] = [
+    let commands: [(&str, &[&str]); 8] = [
         ("generate", &["--spec <FILE|PRESET>", "--out <DIR>", "--check", "default: generated"]),
         (
             "verify",
@@ -91,6 +91,7 @@ fn help_names_every_command_and_every_option() {
                 "--frequency-hz <HZ>",
                 "--samples <N>",
                 "--exhaustive",
+                "--synthesise",
                 "--out <DIR>",
                 "--shard <I/N>",
                 "--merge",

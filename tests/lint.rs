@@ -7,13 +7,16 @@ mod support;
 
 use std::path::Path;
 use std::process::Command;
-use support::{accepted, hdl_tool, said};
+use support::{accepted, accepted_units, hdl_tool, said};
 use vuris::artifact;
 use vuris::cosim::{Verilator, lint};
-use vuris::hdl::{Golden, Scenario, Source, all_artifacts, angle_core_artifacts, rtl_artifacts};
+use vuris::hdl::{
+    AngleSource, Golden, Scenario, Source, all_artifacts, angle_artifacts, angle_core_artifacts,
+    rtl_artifacts,
+};
 use vuris::spec::{ANGLE_PRESETS, AngleCore, PRESETS, Pipeline};
 
-/// Both presets as they are, and specifications of every kind.
+/// The presets as they are, and specifications of every kind.
 fn varied() -> Vec<Pipeline> {
     let presets = PRESETS.iter().map(|preset| Pipeline::named(preset.name).unwrap());
     presets.chain(accepted(20)).collect()
@@ -69,6 +72,30 @@ fn the_core_lints_clean_in_both_verilators() {
         let program = verilator.program.display();
         println!("{program} ({}): {} cores clean", version(verilator), pipelines.len());
     }
+}
+
+/// What no camera has: words of 2 to 40 bits, and nothing but a bit beside the vector.
+#[test]
+fn bare_angle_units_lint_clean_in_every_tool() {
+    let units = accepted_units(60);
+    let verilators = Verilator::all().unwrap();
+    for unit in &units {
+        let folder = tempfile::tempdir().unwrap();
+        let source = AngleSource { prefix: "bare", unit, meta_bits: 1 };
+        artifact::write(folder.path(), &angle_artifacts(&source, "test")).unwrap();
+        for verilator in &verilators {
+            let said = lint(verilator, folder.path(), "bare_angle").unwrap();
+            assert!(said.is_empty(), "{}:\n{said}\n{:?}", verilator.program.display(), **unit);
+        }
+        let output = Command::new("iverilog")
+            .current_dir(folder.path())
+            .args(["-g2005", "-Wall", "-t", "null", "-s", "bare_angle", "-f", "rtl/files.f"])
+            .output()
+            .expect("iverilog is not here: apt-get install iverilog, or `make setup`");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && said.is_empty(), "{said}\n{:?}", **unit);
+    }
+    println!("{} angle units clean", units.len());
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod mutate;
 mod print;
 mod process;
 mod progress;
+mod prove;
 mod scene;
 mod stimulus;
 mod sweep;
@@ -43,6 +44,7 @@ enum Command {
     Synth(synth::Synth),
     Mutate(mutate::Mutate),
     Coverage(coverage::Coverage),
+    Prove(prove::Prove),
 }
 
 impl Arguments {
@@ -60,6 +62,7 @@ impl Arguments {
             Command::Synth(command) => command.run(),
             Command::Mutate(command) => command.run(),
             Command::Coverage(command) => command.run(),
+            Command::Prove(command) => command.run(),
         }
     }
 }

@@ -103,23 +103,29 @@ pub struct Channel {
 /// Bits that the taps give each channel.
 const TAP_BITS: usize = 64;
 
+/// The vectors of `pipeline`'s benches: an amplitude that nobody asks for is not among them.
+fn vectors(pipeline: &Pipeline) -> impl Iterator<Item = &'static Vector> {
+    let amplitude = pipeline.output.amplitude;
+    VECTORS.iter().filter(move |vector| amplitude || vector.name != "amplitude")
+}
+
 /// Every channel of `pipeline`'s benches.
 pub fn channels(pipeline: &Pipeline) -> Vec<Channel> {
     let fields = result_fields(pipeline);
     let mut channels = Vec::new();
     for (stage, Stage { name, probes, .. }) in STAGES.iter().enumerate() {
-        for &(vector, wire) in *probes {
-            let field = fields.iter().find(|field| field.name == vector);
+        for &(probed, wire) in *probes {
+            let Some(vector) = vectors(pipeline).find(|vector| vector.name == probed) else { continue };
+            let field = fields.iter().find(|field| field.name == probed);
             let probe = match (wire, field) {
                 ("", Some(field)) => format!("m_axis_tdata[{} +: {}]", field.low, field.bits),
                 _ => wire.to_owned(),
             };
-            let word = VECTORS.iter().find(|row| row.name == vector).map(|row| (row.word)(pipeline));
             channels.push(Channel {
-                name: format!("{name}.{vector}"),
+                name: format!("{name}.{probed}"),
                 stage,
-                vector,
-                word: word.expect("every probe names a vector"),
+                vector: vector.name,
+                word: (vector.word)(pipeline),
                 probe,
                 low: channels.len() * TAP_BITS,
             });
@@ -230,7 +236,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
                     name: channel.name.clone(),
                     stage: channel.stage,
                     vector: channel.vector,
-                    vector_number: VECTORS.iter().position(|row| row.name == channel.vector).unwrap_or(0),
+                    vector_number: vectors(pipeline).position(|row| row.name == channel.vector).unwrap_or(0),
                     bits: channel.word.bits,
                     spare_bits: TAP_BITS as u32 - channel.word.bits,
                     probe: channel.probe.clone(),
@@ -239,8 +245,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
                 .collect(),
         })
         .collect();
-    let vectors = VECTORS
-        .iter()
+    let vectors = vectors(pipeline)
         .map(|vector| {
             let word = (vector.word)(pipeline);
             VectorRow { name: vector.name, bits: word.bits }
@@ -371,7 +376,7 @@ pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
         artifacts
             .push(Artifact::new("vectors/accesses.hex", hex(&note, 32, padded(words, GoldenAccess::WORDS))));
     }
-    for vector in VECTORS {
+    for vector in vectors(pipeline) {
         let word = (vector.word)(pipeline);
         let kind = if word.signed { "signed" } else { "unsigned" };
         let text = hex(
@@ -385,4 +390,21 @@ pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
         artifacts.push(Artifact::new(format!("vectors/{}.hex", vector.name), text));
     }
     artifacts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_probe_names_a_vector_and_only_an_amplitude_that_nobody_asks_for_is_left_out() {
+        let probes: Vec<&str> =
+            STAGES.iter().flat_map(|stage| stage.probes).map(|&(probed, _)| probed).collect();
+        assert!(probes.iter().all(|probed| VECTORS.iter().any(|vector| vector.name == *probed)));
+        let pipeline = Pipeline::named("vuris").unwrap();
+        assert_eq!(channels(&pipeline).iter().map(|channel| channel.vector).collect::<Vec<_>>(), probes);
+        let phase_only = pipeline.adapted("test", |s| s.output.amplitude = false).unwrap();
+        let left: Vec<&str> = probes.into_iter().filter(|probed| *probed != "amplitude").collect();
+        assert_eq!(channels(&phase_only).iter().map(|channel| channel.vector).collect::<Vec<_>>(), left);
+    }
 }

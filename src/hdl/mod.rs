@@ -2,6 +2,7 @@
 //!
 //! One template a module, in `hdl-templates/`; values arrive there finished.
 
+mod accumulator;
 mod angle;
 mod bench;
 mod control;
@@ -77,13 +78,13 @@ const MODULES: &[Module] = &[
         noun: "sum_memory",
         purpose: "The sums of all pixels.",
         belongs: always,
-        render: control::sum_memory,
+        render: accumulator::sum_memory,
     },
     Module {
         noun: "accumulator",
         purpose: "In-phase, quadrature and offset sums of every pixel, added while frames arrive.",
         belongs: always,
-        render: control::accumulator,
+        render: accumulator::accumulator,
     },
     Module {
         noun: "amplitude",

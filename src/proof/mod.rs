@@ -4,6 +4,7 @@
 //! A change of the list of modules changes nothing here: mutants and coverage are drawn from whatever is emitted.
 
 pub mod coverage;
+pub mod formal;
 pub mod mutation;
 mod small;
 mod yosys;

@@ -288,7 +288,7 @@ mod tests {
         let base = Pipeline::named("vuris-four-frame").unwrap();
         for frames_per_step in [1, 2] {
             for order in [[0, 2, 1, 3], [3, 2, 1, 0], [1, 2, 3, 0]] {
-                let ascending = scheme_steps_rad(base.modulation.scheme);
+                let ascending = scheme_steps_rad(&base.modulation.scheme);
                 let step_rad = |place: usize| ascending[order[place / frames_per_step]];
                 let recording = recording((0..4 * frames_per_step).map(step_rad).collect(), 4000);
                 for choice in [SchemeChoice::Specified, SchemeChoice::Auto] {

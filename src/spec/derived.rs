@@ -1,6 +1,7 @@
 //! Every number that follows from a specification: widths with the bound that makes them safe, constants, latency.
 
 use super::exact::{self, ScaledConstant};
+use super::storage::{self, Storage};
 use super::{AngleSpecification, AngleUnit, Atan, Specification, Word, refused};
 use crate::problem::Result;
 
@@ -18,8 +19,12 @@ pub struct Derived {
     pub quadrature: Word,
     /// Offset sum, by the same bound; its weights are positive.
     pub offset_sum: Word,
-    /// Bits of a pixel's word in the sum memory: the three sums and the saturation flag.
+    /// What is kept of a pixel's sums while frames arrive.
+    pub storage: Storage,
+    /// Bits of a pixel's word in the sum memory: what is kept, and the saturation flag.
     pub memory_word_bits: u32,
+    /// Widths of the columns of the memory, lowest bits first.
+    pub memory_columns: Vec<u32>,
     /// Bits of the sum memory.
     pub memory_bits: usize,
     /// The angle unit: from (in-phase, quadrature) to the phase. Its metric is the square of the scheme's irrational.
@@ -66,7 +71,8 @@ impl Derived {
         let word = |(low, high)| Word::holding(low, high);
         let (in_phase, quadrature) = (bounds(&scheme.in_phase), bounds(&scheme.quadrature));
         let offset_sum = bounds(&scheme.offset);
-        let memory_word_bits = word(in_phase).bits + word(quadrature).bits + word(offset_sum).bits + 1;
+        let storage = Storage::new(scheme, frames_per_step * sample.max());
+        let memory_word_bits = storage.bits() + 1;
 
         let vector_bits = word(in_phase).bits.max(word(quadrature).bits);
         if vector_bits > MOST_VECTOR_BITS {
@@ -182,7 +188,9 @@ impl Derived {
             in_phase: word(in_phase),
             quadrature: word(quadrature),
             offset_sum: word(offset_sum),
+            storage,
             memory_word_bits,
+            memory_columns: storage::columns(memory_word_bits, sensor.width * sensor.height),
             memory_bits: memory_word_bits as usize * sensor.width * sensor.height,
             angle,
             phase: Word::unsigned(output.phase_bits),

@@ -19,6 +19,7 @@ mod scheme;
 mod scheme_file;
 mod sequence;
 mod step_angle;
+mod storage;
 mod word;
 
 pub use angle::{
@@ -40,6 +41,7 @@ pub use row::{Row, offset_weights};
 pub use scheme::{Irrational, SCHEMES, Scheme, SchemeOrigin, scheme, scheme_names};
 pub use sequence::normalised_order;
 pub use step_angle::StepAngle;
+pub use storage::{Storage, StoredSum};
 pub use word::Word;
 
 use crate::frames::Geometry;

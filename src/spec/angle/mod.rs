@@ -230,9 +230,16 @@ impl AngleUnit {
         self.length_bits > 0
     }
 
+    /// The last iteration that changes x in unrolled hardware: where no length is asked for, nobody looks at x after the
+    /// last iteration but one.
+    pub fn last_x_iteration(&self) -> u32 {
+        let needed = if self.with_length() { self.iterations - 1 } else { self.iterations - 2 };
+        self.stages.x_iterations.min(needed)
+    }
+
     /// Steps of the unrolled iterations between which a register can stand: one an iteration, one more where y is tripled first.
     pub fn moves(&self) -> u32 {
-        let tripled = if self.metric == 3 { self.stages.x_iterations + 1 } else { 0 };
+        let tripled = if self.metric == 3 { self.last_x_iteration() + 1 } else { 0 };
         self.iterations + tripled
     }
 

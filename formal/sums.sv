@@ -1,0 +1,123 @@
+// Properties of the sums: for one pixel, whichever it is, what drains is the exact sum of weight times sample over all frames of
+// its set, computed here in words that cannot overflow; so no sum overflows, none is stale, and none is read before it is
+// written. Takes follow the framing's contract (proved of the framing): a pixel comes once a frame, at least
+// three clocks apart, in the order of steps, and while sums drain only in the first frame and behind the drain.
+`default_nettype none
+module properties (
+  input  wire                    clk,
+  input  wire                    reset,
+  input  wire                    take,
+  input  wire [`SAMPLE_BITS-1:0] sample,
+  input  wire [1:0]              address,
+  input  wire                    end_set,
+  input  wire                    advance,
+  input  wire [1:0]              any_pixel,
+  output wire                    watched
+);
+  localparam PIXELS = 4, FRAMES = `STEPS * `REPEATS, WIDE = 16;
+
+  reg started = 1'b0;
+  always @(posedge clk) started <= 1'b1;
+  wire rst_n = started && !reset;
+
+  // One pixel is watched.
+  reg [1:0] pixel;
+  always @(posedge clk) if (!started) pixel <= any_pixel;
+
+  // The frame that the stream is in, and the pixels that it has had.
+  reg [4:0] frame = 5'd0;
+  reg [2:0] next = 3'd0;
+  reg       full = 1'b0;  // a set is complete and waits for its drain
+  wire      first_frame = frame == 0;
+  wire      drain_busy;
+  wire [2:0] drain_address;
+  // The stream takes pixels in order; pauses before a frame make a pixel's takes three clocks apart, as a sensor of 8 pixels does.
+  reg [1:0] rest = 2'd0;
+  wire allowed = !full && rest == 0 && (!drain_busy || first_frame && drain_address > next);
+  wire taken   = rst_n && take && allowed;
+  wire starts  = rst_n && full && end_set && !drain_busy;
+  always @(posedge clk) begin
+    rest <= taken && next == PIXELS - 1 ? 2'd3 : rest == 0 ? 2'd0 : rest - 2'd1;
+    if (!rst_n) begin
+      frame <= 5'd0;
+      next  <= 3'd0;
+      full  <= 1'b0;
+    end else begin
+      if (taken) next <= next == PIXELS - 1 ? 3'd0 : next + 3'd1;
+      if (taken && next == PIXELS - 1) begin
+        frame <= frame == FRAMES - 1 ? 5'd0 : frame + 5'd1;
+        full  <= frame == FRAMES - 1;
+      end
+      if (starts) full <= 1'b0;
+    end
+  end
+
+  wire valid_o, first_o, last_o, saturated_o;
+  wire signed [`IN_PHASE_BITS-1:0] in_phase_o;
+  wire signed [`QUADRATURE_BITS-1:0] quadrature_o;
+  wire [`OFFSET_BITS-1:0] offset_o;
+  wire [`STEP_BITS-1:0] step = frame / `REPEATS;
+
+  `ACCUMULATOR #(
+    .SAMPLE_BITS(`SAMPLE_BITS), .IN_PHASE_BITS(`IN_PHASE_BITS), .QUADRATURE_BITS(`QUADRATURE_BITS),
+    .OFFSET_BITS(`OFFSET_BITS),`KEPT_PARAMETERS .ADDRESS_BITS(2), .COLUMN_BITS(1), .STEP_BITS(`STEP_BITS), .PIXELS(PIXELS),
+    .LAST_COLUMN(1), .SATURATION((1 << `SAMPLE_BITS) - 1)
+  ) dut (
+    .clk_i(clk), .rst_ni(rst_n), .take_i(taken), .sample_i(sample), .address_i(next[1:0]), .step_i(step),
+    .first_frame_i(first_frame), .drain_start_i(starts), .drain_busy_o(drain_busy), .drain_address_o(drain_address),
+    .advance_i(advance), .valid_o(valid_o), .first_o(first_o), .last_o(last_o), .in_phase_o(in_phase_o),
+    .quadrature_o(quadrature_o), .offset_o(offset_o), .saturated_o(saturated_o)
+  );
+
+  // The observer's own sums of the watched pixel, and those of the set before, which drain.
+  reg signed [WIDE-1:0] in_phase, quadrature, offset, in_phase_due, quadrature_due, offset_due;
+  reg saturated, saturated_due;
+  reg signed [WIDE-1:0] in_phase_weight, quadrature_weight, offset_weight;
+  always @(*) begin
+    case (step)
+`WEIGHTS
+    endcase
+  end
+  wire signed [WIDE-1:0] code = {{(WIDE-`SAMPLE_BITS){1'b0}}, sample};
+  wire mine = taken && next[1:0] == pixel;
+  always @(posedge clk) begin
+    if (mine) begin
+      in_phase   <= (first_frame ? 0 : in_phase) + in_phase_weight * code;
+      quadrature <= (first_frame ? 0 : quadrature) + quadrature_weight * code;
+      offset     <= (first_frame ? 0 : offset) + offset_weight * code;
+      saturated  <= (first_frame ? 1'b0 : saturated) || &sample;
+    end
+    if (starts) begin
+      in_phase_due   <= in_phase;
+      quadrature_due <= quadrature;
+      offset_due     <= offset;
+      saturated_due  <= saturated;
+    end
+  end
+
+  // The pixel at the outputs, counted by what has come out.
+  reg [2:0] out = 3'd0;
+  always @(posedge clk) begin
+    if (!rst_n || starts) out <= 3'd0;
+    else if (valid_o && advance) out <= out + 3'd1;
+  end
+  wire due = rst_n && valid_o && out[1:0] == pixel;
+
+  wire [6:0] bad = {
+    rst_n && valid_o && out > PIXELS - 1,                                                // 6 as many out as pixels
+    rst_n && valid_o && last_o != out[0],                                                // 5 a line's last is marked
+    rst_n && valid_o && first_o != (out == 0),                                           // 4 a frame's first is marked
+    due && saturated_o != saturated_due,                                                 // 3 saturation is sticky
+    due && $signed({{(WIDE-`OFFSET_BITS){1'b0}}, offset_o}) != offset_due,               // 2 offset sum
+    due && $signed(quadrature_o) != quadrature_due,                                      // 1 quadrature sum
+    due && $signed(in_phase_o) != in_phase_due                                           // 0 in-phase sum
+  };
+  wire [3:0] seen = {
+    due && offset_due == `OFFSET_MAX,                                                    // 3 the largest offset
+    due && in_phase_due == `IN_PHASE_MIN,                                                // 2 the least in-phase sum
+    due && taken,                                                                        // 1 a take while sums drain
+    due && quadrature_due == `QUADRATURE_MAX                                             // 0 the largest quadrature sum
+  };
+  assign watched = `WATCH;
+endmodule
+`default_nettype wire

@@ -1,0 +1,79 @@
+//! Yosys makes a circuit of a design and the bit that is watched; ABC decides whether the bit can become 1.
+
+use crate::cosim::{Tool, find, output};
+use crate::problem::{Problem, Result};
+use crate::proof::yosys::yosys;
+use std::path::Path;
+use std::process::Command;
+
+/// ABC, as Yosys brings it.
+const ABC: Tool = Tool { name: "yosys-abc", remedy: "apt-get install yosys, or `make setup`" };
+
+/// Seconds that a question may take.
+const PATIENCE_S: u32 = 300;
+
+/// Whether a bit can become 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// Never, whatever happens.
+    Proved,
+    /// Not within so many clocks after power-up.
+    NotWithin(u32),
+    /// It is 1 in this clock after power-up.
+    Reached(u32),
+    /// No answer in the time given.
+    Undecided,
+}
+
+impl std::fmt::Display for Answer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Proved => write!(f, "never, proved"),
+            Self::NotWithin(clocks) => write!(f, "not within {clocks} clocks"),
+            Self::Reached(clock) => write!(f, "in clock {clock}"),
+            Self::Undecided => write!(f, "undecided after {PATIENCE_S} s"),
+        }
+    }
+}
+
+/// Asks for the bit `watch` of the property file `text` around the Verilog `files` in `folder`: at any time, or within `bound`
+/// clocks.
+pub(super) fn ask(
+    folder: &Path,
+    files: &[String],
+    text: &str,
+    watch: &str,
+    bound: Option<u32>,
+) -> Result<Answer> {
+    let properties = folder.join("properties.sv");
+    std::fs::write(&properties, text).map_err(|error| Problem::io(&properties, "write", &error))?;
+    // Registers without a reset start with anything; so does what nobody drives.
+    let script = format!(
+        "read_verilog {}\nread_verilog -formal -sv -DWATCH={watch} properties.sv\nhierarchy -check -top properties\nproc\n\
+         flatten\nopt_clean\nmemory_map\nopt -full\nopt_clean -purge\ntechmap\nopt -fast\ndffunmap\nsimplemap\n\
+         setundef -undriven -anyseq\naigmap\nopt_clean\nwrite_aiger -zinit circuit.aig\n",
+        files.join(" ")
+    );
+    yosys(folder, &script)?;
+    let question = match bound {
+        None => format!("pdr -T {PATIENCE_S}"),
+        Some(clocks) => format!("bmc3 -F {clocks} -T {PATIENCE_S}"),
+    };
+    let mut command = Command::new(find(ABC)?);
+    command.current_dir(folder).args(["-q", &format!("read circuit.aig; strash; {question}")]);
+    let (_, said) = output(&mut command)?;
+    let reached = said.split("was asserted in frame ").nth(1);
+    let reached = reached.and_then(|rest| rest.split(['.', ' ']).next()?.parse().ok());
+    if let Some(clock) = reached {
+        Ok(Answer::Reached(clock))
+    } else if said.contains("Property proved") {
+        Ok(Answer::Proved)
+    } else if said.contains("combinational networks") {
+        // Nothing is left of the design but the watched bit: a constant 0 is never reached.
+        Ok(Answer::Proved)
+    } else if let (Some(clocks), true) = (bound, said.contains("No output asserted in")) {
+        Ok(Answer::NotWithin(clocks))
+    } else {
+        Ok(Answer::Undecided)
+    }
+}

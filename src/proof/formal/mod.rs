@@ -1,0 +1,70 @@
+//! Formal proofs: properties of the generated modules for all inputs, in all states, at all times.
+//!
+//! The property files in `formal/` are plain SystemVerilog around a module, with an observer that only looks at ports. Yosys makes one
+//! circuit of both, and ABC (which comes with Yosys) proves by property-directed reachability that a bad bit is never 1, or
+//! finds the clock at which it is. Beside every proof stand covers: bits that must become 1, so that no proof is
+//! empty. [`FAULTS`] are designs in which a property must fail.
+
+mod engine;
+mod fault;
+mod proof;
+
+pub use engine::Answer;
+pub use fault::{FAULTS, Fault};
+pub use proof::{PROOFS, Proof};
+
+use crate::artifact;
+use crate::hdl::{Source, rtl_artifacts};
+use crate::problem::{Problem, Result};
+use crate::spec::Pipeline;
+
+/// What was asked of a design, and the answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// The proof's name.
+    pub proof: &'static str,
+    /// The property or the cover, in words.
+    pub what: String,
+    /// Whether it is a cover.
+    pub cover: bool,
+    /// The answer.
+    pub answer: Answer,
+}
+
+impl Finding {
+    /// Whether the answer is what it has to be: a property holds, a cover is reached.
+    pub fn holds(&self) -> bool {
+        match self.answer {
+            Answer::Proved | Answer::NotWithin(_) => !self.cover,
+            Answer::Reached(_) => self.cover,
+            Answer::Undecided => false,
+        }
+    }
+}
+
+/// Asks everything of `proof` on `pipeline`, with `fault` seeded where there is one.
+pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Result<Vec<Finding>> {
+    let temporary = tempfile::Builder::new()
+        .prefix("vuris-prove-")
+        .tempdir()
+        .map_err(|error| Problem::io(&std::env::temp_dir(), "write", &error))?;
+    let mut rtl = rtl_artifacts(&Source { pipeline, spec: "proof" });
+    if let Some(fault) = fault {
+        fault.seed(&pipeline.prefix(), &mut rtl)?;
+    }
+    artifact::write(temporary.path(), &rtl)?;
+    let files: Vec<String> =
+        rtl.iter().map(|file| file.path.clone()).filter(|path| path.ends_with(".v")).collect();
+    let text = format!("{}{}", (proof.definitions)(pipeline), proof.text);
+    let mut findings = Vec::new();
+    for (list, cover) in [("bad", false), ("seen", true)] {
+        // A design with a fault need not be covered.
+        for (number, what) in proof.names(list).into_iter().filter(|_| !cover || fault.is_none()) {
+            let watch = format!("{list}[{number}]");
+            let bound = if cover { Some(proof.cover_clocks) } else { proof.bound_clocks };
+            let answer = engine::ask(temporary.path(), &files, &text, &watch, bound)?;
+            findings.push(Finding { proof: proof.name, what, cover, answer });
+        }
+    }
+    Ok(findings)
+}

@@ -1,0 +1,149 @@
+//! The proofs: property files, and what each needs to know of a specification.
+
+use crate::hdl::{result_bits, result_fields};
+use crate::spec::{Pipeline, Word};
+use std::fmt::Write;
+
+/// A property file with its constants.
+#[derive(Clone, Copy)]
+pub struct Proof {
+    /// Its name, the file's.
+    pub name: &'static str,
+    /// What it is about.
+    pub purpose: &'static str,
+    /// The file.
+    pub(super) text: &'static str,
+    /// Macros that come before it.
+    pub(super) definitions: fn(&Pipeline) -> String,
+    /// Clocks after power-up to which the properties are proved; nothing: for ever.
+    pub bound_clocks: Option<u32>,
+    /// Clocks within which every cover must be reached.
+    pub cover_clocks: u32,
+}
+
+/// All proofs.
+pub const PROOFS: &[Proof] = &[
+    Proof {
+        name: "stream",
+        purpose: "the stream register keeps the rules of AXI4-Stream, loses, repeats and reorders nothing, and holds two words at most",
+        text: include_str!("../../../formal/stream.sv"),
+        definitions: |pipeline| {
+            define("STREAM_REGISTER", format_args!("{}_stream_register", pipeline.prefix()))
+        },
+        bound_clocks: None,
+        cover_clocks: 30,
+    },
+    Proof {
+        name: "framing",
+        purpose: "a set that drains is whole and in sequence, whatever came before; counters; no sum is replaced before it has drained",
+        text: include_str!("../../../formal/framing.sv"),
+        definitions: framing,
+        bound_clocks: None,
+        cover_clocks: 120,
+    },
+    Proof {
+        name: "sums",
+        purpose: "what drains is the exact sum of weight times sample: no overflow, nothing stale",
+        text: include_str!("../../../formal/sums.sv"),
+        definitions: sums,
+        // Three sets, one after the other, fit in.
+        bound_clocks: Some(100),
+        cover_clocks: 100,
+    },
+    Proof {
+        name: "pipeline",
+        purpose: "the core's results keep the rules of AXI4-Stream; nothing lies between their fields; stalled clocks are counted",
+        text: include_str!("../../../formal/pipeline.sv"),
+        definitions: whole,
+        bound_clocks: None,
+        cover_clocks: 150,
+    },
+];
+
+impl Proof {
+    /// The bits of the file's list `bad` or `seen` and what they say, from the comments beside them.
+    pub fn names(&self, list: &str) -> Vec<(usize, String)> {
+        let block =
+            self.text.split(&format!("] {list} = {{")).nth(1).and_then(|rest| rest.split("};").next());
+        let comments =
+            block.unwrap_or("").lines().filter_map(|line| line.split_once("// ")).map(|(_, comment)| comment);
+        let mut names: Vec<(usize, String)> = comments
+            .filter_map(|comment| comment.trim().split_once(' '))
+            .filter_map(|(number, what)| Some((number.parse().ok()?, what.trim().to_owned())))
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+fn define(name: &str, value: impl std::fmt::Display) -> String {
+    format!("`define {name} {value}\n")
+}
+
+fn framing(pipeline: &Pipeline) -> String {
+    let several = pipeline.modulation.frames_per_step > 1;
+    let parameters = if several { define("REPEAT_PARAMETERS", 1) } else { String::new() };
+    define("FRAMING", format_args!("{}_framing", pipeline.prefix()))
+        + &define("REPEATS", if several { 2 } else { 1 })
+        + &parameters
+}
+
+/// Bits of a sample in the proof of the sums: the words are derived from it as the specification derives them from the ADC's.
+const SAMPLE_BITS: u32 = 2;
+
+fn sums(pipeline: &Pipeline) -> String {
+    let scheme = &pipeline.modulation.scheme;
+    let frames = pipeline.modulation.frames_per_step as i64;
+    let scale = Word::unsigned(SAMPLE_BITS).max() * frames;
+    let bounds = |weights: &[i64]| {
+        let total = |sign: i64| weights.iter().filter(|&&weight| weight * sign > 0).sum::<i64>() * scale;
+        (total(-1), total(1))
+    };
+    let bits = |(low, high)| Word::holding(low, high).bits;
+    let (in_phase, quadrature, offset) =
+        (bounds(&scheme.in_phase), bounds(&scheme.quadrature), bounds(&scheme.offset));
+    // What is kept in place of the sums has parameters of its own.
+    let storage = &pipeline.derived().storage;
+    let own = storage.sums.iter().filter(|_| !storage.is_plain());
+    let kept: String = own
+        .map(|sum| format!(" .{}_BITS({}),", sum.name.to_uppercase(), bits(bounds(&sum.weights))))
+        .collect();
+    let steps = scheme.steps();
+    let mut weights = String::new();
+    for step in 0..steps {
+        let (i, q, o) = (scheme.in_phase[step], scheme.quadrature[step], scheme.offset[step]);
+        // Writing into a string cannot fail.
+        let _ = write!(
+            weights,
+            " {step}: begin in_phase_weight = {i}; quadrature_weight = {q}; offset_weight = {o}; end"
+        );
+    }
+    weights += " default: begin in_phase_weight = 0; quadrature_weight = 0; offset_weight = 0; end";
+    [
+        define("ACCUMULATOR", format_args!("{}_accumulator", pipeline.prefix())),
+        define("SAMPLE_BITS", SAMPLE_BITS),
+        define("IN_PHASE_BITS", bits(in_phase)),
+        define("QUADRATURE_BITS", bits(quadrature)),
+        define("OFFSET_BITS", bits(offset)),
+        define("KEPT_PARAMETERS", kept),
+        define("STEPS", steps),
+        define("STEP_BITS", Word::holding(0, steps as i64 - 1).bits),
+        define("REPEATS", frames),
+        define("OFFSET_MAX", offset.1),
+        define("IN_PHASE_MIN", format_args!("({})", in_phase.0)),
+        define("QUADRATURE_MAX", quadrature.1),
+        define("WEIGHTS", weights),
+    ]
+    .concat()
+}
+
+fn whole(pipeline: &Pipeline) -> String {
+    let bits = result_bits(pipeline);
+    let fields = result_fields(pipeline);
+    let within = |bit: u32| fields.iter().any(|field| (field.low..field.low + field.bits).contains(&bit));
+    let padding: String = (0..bits).rev().map(|bit| if within(bit) { '0' } else { '1' }).collect();
+    define("PIPELINE", pipeline.top())
+        + &define("SAMPLE_BUS", pipeline.derived().sample.bits.next_multiple_of(8))
+        + &define("RESULT_BITS", bits)
+        + &define("PADDING", format_args!("{bits}'b{padding}"))
+}
