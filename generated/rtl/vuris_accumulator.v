@@ -19,7 +19,9 @@ module vuris_accumulator #(
   parameter IN_PHASE_BITS   = 16,  // in-phase sum, signed
   parameter QUADRATURE_BITS = 15,  // quadrature sum, signed
   parameter OFFSET_BITS     = 16,  // offset sum, unsigned
-  parameter WORD_BITS       = 41,  // what is kept of a pixel
+  parameter GROUP_A_BITS    = 14,  // a sum that is kept, unsigned
+  parameter GROUP_B_BITS    = 14,  // a sum that is kept, unsigned
+  parameter GROUP_C_BITS    = 12,  // a sum that is kept, unsigned
   parameter ADDRESS_BITS    = 15,  // a pixel's number
   parameter COLUMN_BITS     = 8,  // a column's number
   parameter STEP_BITS       = 3,  // a phase step's number
@@ -47,13 +49,15 @@ module vuris_accumulator #(
   output wire                              saturated_o       // a sample of any frame was saturated
 );
 
+  localparam WORD_BITS = 1 + GROUP_A_BITS + GROUP_B_BITS + GROUP_C_BITS;
+
   // The sample times its weights, as shifts and adds.
-  wire [13:0] group_a_sample = {2'd0, sample_i};
-  reg  [13:0] group_a_term_d;
-  wire [13:0] group_b_sample = {2'd0, sample_i};
-  reg  [13:0] group_b_term_d;
-  wire [11:0] group_c_sample = sample_i;
-  reg  [11:0] group_c_term_d;
+  wire [GROUP_A_BITS-1:0] group_a_sample = {{(GROUP_A_BITS-SAMPLE_BITS){1'b0}}, sample_i};
+  reg  [GROUP_A_BITS-1:0] group_a_term_d;
+  wire [GROUP_B_BITS-1:0] group_b_sample = {{(GROUP_B_BITS-SAMPLE_BITS){1'b0}}, sample_i};
+  reg  [GROUP_B_BITS-1:0] group_b_term_d;
+  wire [GROUP_C_BITS-1:0] group_c_sample = sample_i;
+  reg  [GROUP_C_BITS-1:0] group_c_term_d;
 
   always @(*) begin
     case (step_i)
@@ -89,9 +93,9 @@ module vuris_accumulator #(
   reg                              term_valid_q;
   reg                              term_first_q;
   reg        [ADDRESS_BITS-1:0]    term_address_q;
-  reg        [13:0] group_a_term_q;
-  reg        [13:0] group_b_term_q;
-  reg        [11:0] group_c_term_q;
+  reg        [GROUP_A_BITS-1:0] group_a_term_q;
+  reg        [GROUP_B_BITS-1:0] group_b_term_q;
+  reg        [GROUP_C_BITS-1:0] group_c_term_q;
   reg                              saturated_term_q;
   reg                              sum_valid_q;
   reg        [ADDRESS_BITS-1:0]    sum_address_q;
@@ -118,9 +122,9 @@ module vuris_accumulator #(
   wire drain_last = drain_column_q == LAST_COLUMN[COLUMN_BITS-1:0];
 
   wire [WORD_BITS-1:0] word;
-  wire [13:0] group_a_before = word[13:0];
-  wire [13:0] group_b_before = word[27:14];
-  wire [11:0] group_c_before = word[39:28];
+  wire [GROUP_A_BITS-1:0] group_a_before = word[0 +: GROUP_A_BITS];
+  wire [GROUP_B_BITS-1:0] group_b_before = word[GROUP_A_BITS +: GROUP_B_BITS];
+  wire [GROUP_C_BITS-1:0] group_c_before = word[GROUP_A_BITS+GROUP_B_BITS +: GROUP_C_BITS];
   wire saturated_before = word[WORD_BITS-1];
 
   vuris_sum_memory u_sum_memory (
@@ -182,9 +186,9 @@ module vuris_accumulator #(
     sum_address_q <= term_address_q;
     sum_q         <= {
       (saturated_before && !term_first_q) || saturated_term_q,
-      (term_first_q ? 12'd0 : group_c_before) + group_c_term_q,
-      (term_first_q ? 14'd0 : group_b_before) + group_b_term_q,
-      (term_first_q ? 14'd0 : group_a_before) + group_a_term_q
+      (term_first_q ? {GROUP_C_BITS{1'b0}} : group_c_before) + group_c_term_q,
+      (term_first_q ? {GROUP_B_BITS{1'b0}} : group_b_before) + group_b_term_q,
+      (term_first_q ? {GROUP_A_BITS{1'b0}} : group_a_before) + group_a_term_q
     };
 
     if (drain_start_i) begin

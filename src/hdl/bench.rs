@@ -279,20 +279,3 @@ pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     }
     artifacts
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_probe_names_a_vector_and_only_an_amplitude_that_nobody_asks_for_is_left_out() {
-        let probes: Vec<&str> =
-            STAGES.iter().flat_map(|stage| stage.probes).map(|&(probed, _)| probed).collect();
-        assert!(probes.iter().all(|probed| VECTORS.iter().any(|vector| vector.name == *probed)));
-        let pipeline = Pipeline::named("vuris").unwrap();
-        assert_eq!(channels(&pipeline).iter().map(|channel| channel.vector).collect::<Vec<_>>(), probes);
-        let phase_only = pipeline.adapted("test", |s| s.output.amplitude = false).unwrap();
-        let left: Vec<&str> = probes.into_iter().filter(|probed| *probed != "amplitude").collect();
-        assert_eq!(channels(&phase_only).iter().map(|channel| channel.vector).collect::<Vec<_>>(), left);
-    }
-}

@@ -171,3 +171,25 @@ pub fn channels(pipeline: &Pipeline) -> Vec<Channel> {
     }
     channels
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_probe_names_a_vector_and_only_what_a_pipeline_lacks_is_left_out() {
+        let probes: Vec<&str> =
+            STAGES.iter().flat_map(|stage| stage.probes).map(|&(probed, _)| probed).collect();
+        assert!(probes.iter().all(|probed| VECTORS.iter().any(|vector| vector.name == *probed)));
+        let compared = |pipeline: &Pipeline| -> Vec<&str> {
+            channels(pipeline).iter().map(|channel| channel.vector).collect()
+        };
+        let left = |lacking: &[&str]| -> Vec<&str> {
+            probes.iter().copied().filter(|probed| !lacking.contains(probed)).collect()
+        };
+        let pipeline = Pipeline::named("vuris").unwrap();
+        let phase_only = pipeline.adapted("test", |s| s.output.amplitude = false).unwrap();
+        assert_eq!(compared(&pipeline), left(&["unwrapped", "unambiguous"]));
+        assert_eq!(compared(&phase_only), left(&["unwrapped", "unambiguous", "amplitude"]));
+    }
+}
