@@ -55,7 +55,7 @@ module properties (
 
   `ACCUMULATOR #(
     .SAMPLE_BITS(`SAMPLE_BITS), .IN_PHASE_BITS(`IN_PHASE_BITS), .QUADRATURE_BITS(`QUADRATURE_BITS),
-    .OFFSET_BITS(`OFFSET_BITS), .ADDRESS_BITS(2), .COLUMN_BITS(1), .STEP_BITS(`STEP_BITS), .PIXELS(PIXELS),
+    .OFFSET_BITS(`OFFSET_BITS),`KEPT_PARAMETERS .ADDRESS_BITS(2), .COLUMN_BITS(1), .STEP_BITS(`STEP_BITS), .PIXELS(PIXELS),
     .LAST_COLUMN(1), .SATURATION((1 << `SAMPLE_BITS) - 1)
   ) dut (
     .clk_i(clk), .rst_ni(rst_n), .take_i(taken), .sample_i(sample), .address_i(next[1:0]), .step_i(step),

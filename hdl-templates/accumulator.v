@@ -1,11 +1,12 @@
 [[ banner ]]
-// Adds every sample, times its step's weights, to its pixel's in-phase, quadrature and offset sums while frames
-// arrive, and drains the sums of a complete set. It keeps no raw frame, and one memory serves both: a set's first frame
-// replaces sums that have just been drained, so that nothing is ever cleared and no second buffer is needed.
+// Adds every sample, times its step's weights, to [[ kept ]] while frames
+// arrive, and drains in-phase, quadrature and offset sum of a complete set. It keeps no raw frame, and one memory serves
+// both: a set's first frame replaces sums that have just been drained, so that nothing is ever cleared and no second buffer
+// is needed.
 //
-//   step | in-phase | quadrature | offset   (weights of scheme [[ scheme ]])
+//   step | [[ heading ]]   (weights of scheme [[ scheme ]])
 [%- for step in steps %]
-//   [[ step.number ]]    | [[ step.in_phase ]]       | [[ step.quadrature ]]         | [[ step.offset ]]
+//   [[ step.title ]]
 [%- endfor %]
 `default_nettype none
 module [[ prefix ]]_accumulator #(
@@ -13,6 +14,9 @@ module [[ prefix ]]_accumulator #(
   parameter IN_PHASE_BITS   = [[ in_phase_bits ]],  // in-phase sum, signed
   parameter QUADRATURE_BITS = [[ quadrature_bits ]],  // quadrature sum, signed
   parameter OFFSET_BITS     = [[ offset_bits ]],  // offset sum, unsigned
+[%- for sum in own_sums %]
+  parameter [[ sum.bits_name ]]    = [[ sum.bits ]],  // a sum that is kept, unsigned
+[%- endfor %]
   parameter ADDRESS_BITS    = [[ address_bits ]],  // a pixel's number
   parameter COLUMN_BITS     = [[ column_bits ]],  // a column's number
   parameter STEP_BITS       = [[ step_bits ]],  // a phase step's number
@@ -40,20 +44,16 @@ module [[ prefix ]]_accumulator #(
   output wire                              saturated_o       // a sample of any frame was saturated
 );
 
-  localparam WORD_BITS = 1 + OFFSET_BITS + QUADRATURE_BITS + IN_PHASE_BITS;
-
-[%- if multiplied %]
-
+  localparam WORD_BITS = 1[% for sum in sums %] + [[ sum.bits_name ]][% endfor %];
+[% if multiplied %]
   // A clock before all others: the step's weights are looked up.
   reg                    take_q;
   reg [SAMPLE_BITS-1:0]  sample_q;
   reg [ADDRESS_BITS-1:0] address_q;
   reg                    first_frame_q;
-  reg signed [[ "[" ]][[ in_phase_weight_bits - 1 ]]:0] in_phase_weight_q;
-  reg signed [[ "[" ]][[ quadrature_weight_bits - 1 ]]:0] quadrature_weight_q;
-[%- if offset_multiplied %]
-  reg signed [[ "[" ]][[ offset_weight_bits - 1 ]]:0] offset_weight_q;
-[%- endif %]
+[%- for sum in sums %]
+  reg signed [[ sum.weight_range ]] [[ sum.name ]]_weight_q;
+[%- endfor %]
 
   always @(posedge clk_i) begin
     if (!rst_ni) take_q <= 1'b0;
@@ -67,50 +67,36 @@ module [[ prefix ]]_accumulator #(
     case (step_i)
 [%- for step in steps %]
       [[ step.label ]]: begin
-        in_phase_weight_q   <= [[ step.in_phase_literal ]];
-        quadrature_weight_q <= [[ step.quadrature_literal ]];
-[%- if offset_multiplied %]
-        offset_weight_q     <= [[ step.offset_literal ]];
-[%- endif %]
+[%- for term in step.terms %]
+        [[ term.name ]]_weight_q <= [[ term.literal ]];
+[%- endfor %]
       end
 [%- endfor %]
     endcase
   end
 
-  // The sample times its weights.
-  wire signed [IN_PHASE_BITS-1:0]   sample_in_phase   = {{(IN_PHASE_BITS-SAMPLE_BITS){1'b0}}, sample_q};
-  wire signed [QUADRATURE_BITS-1:0] sample_quadrature = {{(QUADRATURE_BITS-SAMPLE_BITS){1'b0}}, sample_q};
-  wire signed [IN_PHASE_BITS-1:0]   in_phase_weight   = {{(IN_PHASE_BITS-[[ in_phase_weight_bits ]]){in_phase_weight_q[ [[- in_phase_weight_bits - 1 -]] ]}}, in_phase_weight_q};
-  wire signed [QUADRATURE_BITS-1:0] quadrature_weight = {{(QUADRATURE_BITS-[[ quadrature_weight_bits ]]){quadrature_weight_q[ [[- quadrature_weight_bits - 1 -]] ]}}, quadrature_weight_q};
-  wire signed [IN_PHASE_BITS-1:0]   in_phase_term_d   = sample_in_phase * in_phase_weight;
-  wire signed [QUADRATURE_BITS-1:0] quadrature_term_d = sample_quadrature * quadrature_weight;
-[%- if offset_multiplied %]
-  wire signed [OFFSET_BITS:0]       sample_offset     = {{(OFFSET_BITS+1-SAMPLE_BITS){1'b0}}, sample_q};
-  wire signed [OFFSET_BITS:0]       offset_weight     = {{(OFFSET_BITS+1-[[ offset_weight_bits ]]){offset_weight_q[ [[- offset_weight_bits - 1 -]] ]}}, offset_weight_q};
-  wire signed [OFFSET_BITS:0]       offset_product    = sample_offset * offset_weight;
-  wire        [OFFSET_BITS-1:0]     offset_term_d     = offset_product[OFFSET_BITS-1:0];
-  wire                              unused_sign       = &{1'b0, offset_product[OFFSET_BITS]};
+  // The sample times its weights; a product's sign is that of the weight, and its top bit no more than that.
+[%- for sum in sums %]
+  wire signed [[ sum.product_range ]] [[ sum.name ]]_sample = {[[ sum.sample_zeros ]], sample_q};
+  wire signed [[ sum.product_range ]] [[ sum.name ]]_weight = {{[[ sum.weight_signs ]]{[[ sum.name ]]_weight_q[[ self::bit(sum.weight_top) ]]}}, [[ sum.name ]]_weight_q};
+  wire signed [[ sum.product_range ]] [[ sum.name ]]_product = [[ sum.name ]]_sample * [[ sum.name ]]_weight;
+  wire [[ sum.range ]] [[ sum.name ]]_term_d = [[ sum.name ]]_product[[ self::slice(sum.top, 0) ]];
+  wire unused_[[ sum.name ]] = [[ sum.name ]]_product[[ self::bit(sum.bits) ]];
+[%- endfor %]
 [%- else %]
-  wire        [OFFSET_BITS-1:0]     offset_term_d     = {{(OFFSET_BITS-SAMPLE_BITS){1'b0}}, sample_q};
-[%- endif %]
-[%- else %]
-
   // The sample times its weights, as shifts and adds.
-  wire signed [IN_PHASE_BITS-1:0]   sample_in_phase   = {{(IN_PHASE_BITS-SAMPLE_BITS){1'b0}}, sample_i};
-  wire signed [QUADRATURE_BITS-1:0] sample_quadrature = {{(QUADRATURE_BITS-SAMPLE_BITS){1'b0}}, sample_i};
-  wire        [OFFSET_BITS-1:0]     sample_offset     = {{(OFFSET_BITS-SAMPLE_BITS){1'b0}}, sample_i};
-
-  reg signed [IN_PHASE_BITS-1:0]   in_phase_term_d;
-  reg signed [QUADRATURE_BITS-1:0] quadrature_term_d;
-  reg        [OFFSET_BITS-1:0]     offset_term_d;
+[%- for sum in sums %]
+  wire [[ sum.range ]] [[ sum.name ]]_sample = [[ sum.sample ]];
+  reg  [[ sum.range ]] [[ sum.name ]]_term_d;
+[%- endfor %]
 
   always @(*) begin
     case (step_i)
 [%- for step in steps %]
       [[ step.label ]]: begin
-        in_phase_term_d   = [[ step.in_phase_term ]];
-        quadrature_term_d = [[ step.quadrature_term ]];
-        offset_term_d     = [[ step.offset_term ]];
+[%- for term in step.terms %]
+        [[ term.name ]]_term_d = [[ term.text ]];
+[%- endfor %]
       end
 [%- endfor %]
     endcase
@@ -121,31 +107,39 @@ module [[ prefix ]]_accumulator #(
   reg                              term_valid_q;
   reg                              term_first_q;
   reg        [ADDRESS_BITS-1:0]    term_address_q;
-  reg signed [IN_PHASE_BITS-1:0]   in_phase_term_q;
-  reg signed [QUADRATURE_BITS-1:0] quadrature_term_q;
-  reg        [OFFSET_BITS-1:0]     offset_term_q;
+[%- for sum in sums %]
+  reg        [[ sum.range ]] [[ sum.name ]]_term_q;
+[%- endfor %]
   reg                              saturated_term_q;
   reg                              sum_valid_q;
   reg        [ADDRESS_BITS-1:0]    sum_address_q;
   reg        [WORD_BITS-1:0]       sum_q;
 
-  // First clock of the drain: a pixel's sums are read. From the second on they wait for the pipeline to move.
+  // First clock of the drain: a pixel's word is read. Second: its sums are formed. From then on they wait for the pipeline
+  // to move.
   reg                    drain_busy_q;
   reg [ADDRESS_BITS:0]   drain_address_q;
   reg [COLUMN_BITS-1:0]  drain_column_q;
+  reg                    read_valid_q;
+  reg                    read_first_q;
+  reg                    read_last_q;
   reg                    valid_q;
   reg                    first_q;
   reg                    last_q;
+  reg                    saturated_q;
+  reg signed [IN_PHASE_BITS-1:0]   in_phase_q;
+  reg signed [QUADRATURE_BITS-1:0] quadrature_q;
+  reg        [OFFSET_BITS-1:0]     offset_q;
 
   wire drain_end  = drain_address_q == PIXELS[ADDRESS_BITS:0];
   wire drain_read = drain_busy_q && advance_i && !drain_end;
   wire drain_last = drain_column_q == LAST_COLUMN[COLUMN_BITS-1:0];
 
-  wire [WORD_BITS-1:0]              word;
-  wire signed [IN_PHASE_BITS-1:0]   in_phase_before   = word[0 +: IN_PHASE_BITS];
-  wire signed [QUADRATURE_BITS-1:0] quadrature_before = word[IN_PHASE_BITS +: QUADRATURE_BITS];
-  wire        [OFFSET_BITS-1:0]     offset_before     = word[IN_PHASE_BITS+QUADRATURE_BITS +: OFFSET_BITS];
-  wire                              saturated_before  = word[WORD_BITS-1];
+  wire [WORD_BITS-1:0] word;
+[%- for sum in sums %]
+  wire [[ sum.range ]] [[ sum.name ]]_before = word[[ "[" ]][[ sum.low ]] +: [[ sum.bits_name ]]];
+[%- endfor %]
+  wire saturated_before = word[WORD_BITS-1];
 
   [[ prefix ]]_sum_memory u_sum_memory (
     .clk_i          (clk_i),
@@ -162,40 +156,55 @@ module [[ prefix ]]_accumulator #(
   assign valid_o         = valid_q;
   assign first_o         = first_q;
   assign last_o          = last_q;
-  assign in_phase_o      = in_phase_before;
-  assign quadrature_o    = quadrature_before;
-  assign offset_o        = offset_before;
-  assign saturated_o     = saturated_before;
+  assign in_phase_o      = in_phase_q;
+  assign quadrature_o    = quadrature_q;
+  assign offset_o        = offset_q;
+  assign saturated_o     = saturated_q;
 
   always @(posedge clk_i) begin
     if (!rst_ni) begin
       term_valid_q <= 1'b0;
       sum_valid_q  <= 1'b0;
       drain_busy_q <= 1'b0;
+      read_valid_q <= 1'b0;
       valid_q      <= 1'b0;
     end else begin
       term_valid_q <= take_[[ at ]];
       sum_valid_q  <= term_valid_q;
       if (drain_start_i) drain_busy_q <= 1'b1;
       else if (drain_end && advance_i) drain_busy_q <= 1'b0;
-      if (advance_i) valid_q <= drain_read;
+      if (advance_i) begin
+        read_valid_q <= drain_read;
+        valid_q      <= read_valid_q;
+      end
     end
   end
+[%- if !plain %]
+
+  // The sums of a pixel, from what was kept.
+[%- for sum in sums %]
+  wire signed [[ mixed_range ]] [[ sum.name ]]_wide = [[ sum.mixed ]];
+[%- endfor %]
+  wire signed [[ mixed_range ]] in_phase_wide   = [[ in_phase_mix ]];
+  wire signed [[ mixed_range ]] quadrature_wide = [[ quadrature_mix ]];
+  wire signed [[ mixed_range ]] offset_wide     = [[ offset_mix ]];
+  wire unused_wide = &{1'b0, in_phase_wide[[ self::slice(mixed_top, in_phase_bits) ]], quadrature_wide[[ self::slice(mixed_top, quadrature_bits) ]], offset_wide[[ self::slice(mixed_top, offset_bits) ]]};
+[%- endif %]
 
   always @(posedge clk_i) begin
     term_first_q      <= first_frame_[[ at ]];
     term_address_q    <= address_[[ at ]];
-    in_phase_term_q   <= in_phase_term_d;
-    quadrature_term_q <= quadrature_term_d;
-    offset_term_q     <= offset_term_d;
+[%- for sum in sums %]
+    [[ sum.name ]]_term_q <= [[ sum.name ]]_term_d;
+[%- endfor %]
     saturated_term_q  <= sample_[[ at ]] >= SATURATION[SAMPLE_BITS-1:0];
 
     sum_address_q <= term_address_q;
     sum_q         <= {
       (saturated_before && !term_first_q) || saturated_term_q,
-      (term_first_q ? {OFFSET_BITS{1'b0}} : offset_before) + offset_term_q,
-      (term_first_q ? {QUADRATURE_BITS{1'b0}} : quadrature_before) + quadrature_term_q,
-      (term_first_q ? {IN_PHASE_BITS{1'b0}} : in_phase_before) + in_phase_term_q
+[%- for sum in sums_from_top %]
+      (term_first_q ? [[ sum.zero ]] : [[ sum.name ]]_before) + [[ sum.name ]]_term_q[% if !sum.lowest %],[% endif %]
+[%- endfor %]
     };
 
     if (drain_start_i) begin
@@ -206,8 +215,22 @@ module [[ prefix ]]_accumulator #(
       drain_column_q  <= drain_last ? {COLUMN_BITS{1'b0}} : drain_column_q + 1'b1;
     end
     if (drain_read) begin
-      first_q <= drain_address_q == {(ADDRESS_BITS+1){1'b0}};
-      last_q  <= drain_last;
+      read_first_q <= drain_address_q == {(ADDRESS_BITS+1){1'b0}};
+      read_last_q  <= drain_last;
+    end
+    if (advance_i) begin
+      first_q      <= read_first_q;
+      last_q       <= read_last_q;
+      saturated_q  <= saturated_before;
+[%- if plain %]
+      in_phase_q   <= in_phase_before;
+      quadrature_q <= quadrature_before;
+      offset_q     <= offset_before;
+[%- else %]
+      in_phase_q   <= in_phase_wide[IN_PHASE_BITS-1:0];
+      quadrature_q <= quadrature_wide[QUADRATURE_BITS-1:0];
+      offset_q     <= offset_wide[OFFSET_BITS-1:0];
+[%- endif %]
     end
   end
 

@@ -110,6 +110,9 @@ module [[ prefix ]]_cordic #(
   wire                  unused_direction_[[ stage.number ]] = directions_[[ stage.number ]][DIRECTIONS-2];
 [%- if stage.follows %]
   wire [[ stage.part_range ]] part_[[ stage.number ]] = [[ stage.part ]];
+[%- if stage.unused_part != "" %]
+  wire unused_part_[[ stage.number ]] = &{1'b0, [[ stage.unused_part ]]};
+[%- endif %]
 [%- if stage.shifts.len() == 1 %]
   wire [X_BITS:0] grown_[[ stage.number ]] = [[ stage.only_shift ]];
 [%- else %]

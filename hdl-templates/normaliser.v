@@ -36,8 +36,8 @@ module [[ prefix ]]_normaliser #(
   wire [BITS-1:0] x_raw = [[ x_raw ]];
   wire [BITS-1:0] y_raw = [[ y_raw ]];
 [%- if !levels.is_empty() %]
-  wire [BITS-1:0] x_folded = x_raw ^ {BITS{x_i[X_BITS-1]}};
-  wire [BITS-1:0] y_folded = y_raw ^ {BITS{y_i[Y_BITS-1]}};
+  wire [[ first_range ]] x_top = x_raw[BITS-1:[[ first_top ]]] ^ {[[ first_bits ]]{x_i[X_BITS-1]}};
+  wire [[ first_range ]] y_top = y_raw[BITS-1:[[ first_top ]]] ^ {[[ first_bits ]]{y_i[Y_BITS-1]}};
 [%- endif %]
 
   reg                 valid_0;

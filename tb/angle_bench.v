@@ -44,7 +44,7 @@ module angle_bench;
   reg         held;
   reg  [RESULT_BITS-1:0] held_result;
 
-  function [31:0] next_random;
+  function automatic [31:0] next_random;
     input [31:0] state;
     reg   [31:0] bits;
     begin
@@ -136,22 +136,27 @@ module angle_bench;
         if (result !== expected) begin
           mismatches <= mismatches + 1;
           if (mismatches < 10) begin
-            $display("MISMATCH vector %0d (%h, %h) in clock %0d: phase %h zero %b length %h shift %h number %h, expected %h %b %h %h %h",
+            $display("MISMATCH vector %0d (%h, %h) in clock %0d: phase %h zero %b length %h shift %h number %h",
                      received, x_golden[received], y_golden[received], clocks, phase, zero, length, shift, number,
-                     phase_golden[received], zero_golden[received], length_golden[received], shift_golden[received],
-                     due[META_BITS-1:0]);
+                     ", expected %h %b %h %h %h", phase_golden[received], zero_golden[received],
+                     length_golden[received], shift_golden[received], due[META_BITS-1:0]);
           end
         end
         received <= received + 1;
         if (received + 1 == VECTORS) begin
-          if (mismatches == 0 && result === expected) $display("PASS values=%0d clocks=%0d mismatches=0", VECTORS, clocks);
-          else $display("FAIL values=%0d clocks=%0d mismatches=%0d", VECTORS, clocks, mismatches + (result !== expected ? 1 : 0));
-          $finish;
+          if (mismatches == 0 && result === expected) begin
+            $display("PASS values=%0d clocks=%0d mismatches=0", VECTORS, clocks);
+            $finish;
+          end else begin
+            // A stop, so that `vvp -N` and its like end with an exit code that is not 0.
+            $display("FAIL values=%0d clocks=%0d mismatches=%0d", VECTORS, clocks, mismatches + (result !== expected ? 1 : 0));
+            $stop;
+          end
         end
       end
       if (waited > PATIENCE) begin
         $display("FAIL values=%0d clocks=%0d mismatches=%0d: nothing comes any more", received, clocks, mismatches + 1);
-        $finish;
+        $stop;
       end
     end
   end

@@ -11,7 +11,7 @@ use support::{hdl_tool, said, small, two_at_a_time};
 use vuris::artifact::{self, Artifact};
 use vuris::hdl::{Golden, Scenario, Source, all_artifacts};
 use vuris::package::package_artifacts;
-use vuris::spec::Pipeline;
+use vuris::spec::{Pipeline, Throughput};
 
 /// Everything that `vuris generate` writes for `pipeline`, without stimulus.
 fn artifacts(pipeline: &Pipeline) -> Vec<Artifact> {
@@ -33,7 +33,11 @@ fn run(files: &[Artifact], seed: u32) -> (bool, String) {
 #[test]
 fn the_core_keeps_what_its_package_promises() {
     let pipelines = [
-        small("vuris", |_| {}),
+        small("vuris-fast", |_| {}),
+        small("vuris", |specification| {
+            (specification.sensor.width, specification.sensor.height) = (5, 4);
+            specification.cordic.throughput = Throughput::CyclesPerPixel(5);
+        }),
         small("vuris-four-frame", |specification| {
             (specification.sensor.width, specification.sensor.height) = (4, 2);
             specification.sensor.adc_bits = 10;
@@ -92,10 +96,10 @@ const FAULTS: [Fault; 12] = [
         "\"wave\": \"1....01.",
     ),
     (
-        "a diagram leaves a clock out",
+        "a diagram draws a result a clock late",
         "timing-set.json",
-        "\"wave\": \"0.....|..|1...|.0\"",
-        "\"wave\": \"0.....|..|.1..|.0\"",
+        "\"wave\": \"0.....|..|10|",
+        "\"wave\": \"0.....|..|.1|",
     ),
     ("a port has another width", "explanation.json", "\"bits\": 88", "\"bits\": 80"),
 ];
@@ -124,8 +128,8 @@ fn a_broken_core_or_promise_is_found() {
         ),
         (
             "a latency is too short",
-            "silence_to_first_result_clocks\": 1".to_owned(),
-            "silence_to_first_result_clocks\": 2".to_owned(),
+            "silence_to_first_result_clocks\": 9".to_owned(),
+            "silence_to_first_result_clocks\": 8".to_owned(),
         ),
     ] {
         let mut files = good.clone();

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
+use vuris::synthesis::Target;
 
 const SPEC: &str = "bench.toml";
 
@@ -94,6 +95,11 @@ fn assert_found_and_repaired(home: &Path, differences: &[&str]) {
 #[test]
 fn the_repository_holds_what_the_program_writes() {
     let fresh = tempfile::tempdir().unwrap();
+    // What has been measured is not generated, and the guide shows it.
+    fs::create_dir(fresh.path().join("generated")).unwrap();
+    for measured in ["generated/synthesis.json", "generated/synthesis.md"] {
+        fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(measured), fresh.path().join(measured)).unwrap();
+    }
     run(fresh.path(), &["generate", "--spec", "vuris"], 0);
     let repository = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (committed, written) =
@@ -103,7 +109,34 @@ fn the_repository_holds_what_the_program_writes() {
     assert!(different.is_empty(), "`make generate` writes {different:?}");
     assert!(written.len() > 30);
     let checked = text(&run(repository, &["generate", "--spec", "vuris", "--check"], 0));
-    assert_eq!(checked, format!("generated: {} files are up to date\n", written.len()));
+    assert_eq!(checked, format!("generated: {} files are up to date\n", written.len() - 2));
+}
+
+/// The guide shows the area of the very Verilog beside it, and of no other.
+#[test]
+fn the_guide_shows_what_synthesis_has_measured() {
+    let home = generated();
+    let guide = home.path().join("out/integration.md");
+    let before = fs::read_to_string(&guide).unwrap();
+    assert!(before.contains("have not been measured") && !before.contains("| 4711 |"), "{before}");
+    let spec = home.path().join(SPEC);
+    let target = Target::named(spec.to_str().unwrap(), SPEC).unwrap();
+    let measured = format!(
+        "{{\"note\": \"\", \"format\": \"vuris-synthesis/1\", \"tools\": {{}}, \"target_mhz\": 400, \"seeds\": [1], \"targets\": [{{\
+         \"name\": \"bench\", \"purpose\": \"\", \"kind\": \"pipeline\", \"digest\": \"{}\", \"latency_clocks\": null, \
+         \"clocks_per_sample\": null, \"accuracy\": null, \"results\": [{{\"family\": \"ecp5\", \"area\": AREA, \"accepted\": AREA, \
+         \"speed\": {{\"does-not-fit\": \"too large\"}}}}]}}]}}",
+        target.verilog.digest()
+    );
+    let area = "{\"luts\": 4711, \"lut4\": 0, \"carries\": 0, \"lut_memories\": 0, \"registers\": 0, \"block_rams\": 0, \"multipliers\": 0}";
+    fs::write(home.path().join("out/synthesis.json"), measured.replace("AREA", area)).unwrap();
+    assert!(check(home.path(), 1).contains("stale   integration.md"));
+    generate(home.path());
+    assert!(fs::read_to_string(&guide).unwrap().contains("| 4711 |"));
+    let text = fs::read_to_string(&spec).unwrap();
+    fs::write(&spec, text.replace("height = 2", "height = 4")).unwrap();
+    generate(home.path());
+    assert!(!fs::read_to_string(&guide).unwrap().contains("| 4711 |"), "the figures are another core's");
 }
 
 #[test]
@@ -164,7 +197,7 @@ fn a_missing_folder_is_found_and_written() {
 #[test]
 fn a_stale_file_is_found_with_the_line_and_written() {
     let home = generated();
-    let path = home.path().join("out/rtl/bench_cordic.v");
+    let path = home.path().join("out/rtl/bench_accumulator.v");
     let good = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = good.lines().collect();
     let with = |line: usize, new: &str| {
@@ -185,7 +218,7 @@ fn a_stale_file_is_found_with_the_line_and_written() {
     ] {
         assert_ne!(changed, good);
         fs::write(&path, changed).unwrap();
-        let difference = format!("stale   rtl/bench_cordic.v, from line {line}");
+        let difference = format!("stale   rtl/bench_accumulator.v, from line {line}");
         assert_found_and_repaired(home.path(), &[&difference]);
     }
 }
@@ -194,10 +227,10 @@ fn a_stale_file_is_found_with_the_line_and_written() {
 fn another_specification_makes_the_output_stale() {
     let home = generated();
     let text = fs::read_to_string(home.path().join(SPEC)).unwrap();
-    fs::write(home.path().join(SPEC), text.replace("iterations = 20", "iterations = 19")).unwrap();
+    fs::write(home.path().join(SPEC), text.replace("iterations = 19", "iterations = 18")).unwrap();
     let checked = check(home.path(), 1);
-    assert!(checked.contains("stale   rtl/bench_cordic.v, from line "), "{checked}");
-    let line = 1 + text.lines().position(|line| line == "iterations = 20").unwrap();
+    assert!(checked.contains("stale   rtl/bench_angle.v, from line "), "{checked}");
+    let line = 1 + text.lines().position(|line| line == "iterations = 19").unwrap();
     // The generated copy has a line more at its top.
     assert!(
         checked.contains(&format!("stale   rtl/specification.toml, from line {}", line + 1)),
@@ -211,7 +244,7 @@ fn another_specification_makes_the_output_stale() {
 fn a_surplus_file_of_an_earlier_run_is_found_and_removed() {
     let home = generated();
     let out = home.path().join("out");
-    fs::copy(out.join("rtl/bench_cordic.v"), out.join("rtl/bench_divider.v")).unwrap();
+    fs::copy(out.join("rtl/bench_accumulator.v"), out.join("rtl/bench_divider.v")).unwrap();
     fs::copy(out.join("vectors/x.hex"), out.join("vectors/z.hex")).unwrap();
     fs::copy(out.join("tb/harness.cpp"), out.join("tb/harness2.cpp")).unwrap();
     let found = ["surplus rtl/bench_divider.v", "surplus tb/harness2.cpp", "surplus vectors/z.hex"];
@@ -240,12 +273,12 @@ fn all_kinds_at_once_are_found_in_the_order_of_paths_and_repaired() {
     let home = generated();
     let out = home.path().join("out");
     fs::copy(out.join("rtl/files.f"), out.join("rtl/aaa.f")).unwrap();
-    fs::remove_file(out.join("rtl/bench_phase.v")).unwrap();
+    fs::remove_file(out.join("rtl/bench_distance.v")).unwrap();
     let vectors = fs::read_to_string(out.join("vectors/phase.hex")).unwrap();
     fs::write(out.join("vectors/phase.hex"), vectors.replacen('\n', "\n00000\n", 1)).unwrap();
     assert_found_and_repaired(
         home.path(),
-        &["surplus rtl/aaa.f", "missing rtl/bench_phase.v", "stale   vectors/phase.hex, from line 2"],
+        &["surplus rtl/aaa.f", "missing rtl/bench_distance.v", "stale   vectors/phase.hex, from line 2"],
     );
 }
 

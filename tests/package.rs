@@ -10,11 +10,10 @@ use std::path::Path;
 use std::process::Command;
 use support::{hdl_tool, said, small};
 use vuris::artifact::{self, Artifact};
-use vuris::cosim::aborted_then_good;
-use vuris::cosim::random_sets;
-use vuris::hdl::{Golden, Segment, Source, all_artifacts};
-use vuris::package::{package_artifacts, ports};
-use vuris::spec::{PRESETS, Pipeline};
+use vuris::cosim::{aborted_then_good, random_sets};
+use vuris::hdl::{Golden, Segment, Source, all_artifacts, angle_core_artifacts, angle_stimulus};
+use vuris::package::{angle_package_artifacts, package_artifacts, ports};
+use vuris::spec::{ANGLE_PRESETS, AngleCore, PRESETS, Pipeline};
 
 /// Everything that `vuris generate` writes for `pipeline`, with a set of random frames.
 fn artifacts(pipeline: &Pipeline) -> Vec<Artifact> {
@@ -44,11 +43,23 @@ fn replaced(files: &mut [Artifact], path: &str, old: &str, new: &str) {
     file.text = file.text.replacen(old, new, 1);
 }
 
+fn core_name(pipeline: &Pipeline) -> String {
+    format!("vuris:pipeline:{}:{}", pipeline.top(), env!("CARGO_PKG_VERSION"))
+}
+
 /// `fusesoc run` of a target.
-fn fusesoc(pipeline: &Pipeline, folder: &Path, target: &str) -> (bool, String) {
-    let core = format!("vuris:pipeline:{}:{}", pipeline.top(), env!("CARGO_PKG_VERSION"));
+fn fusesoc(core: &str, folder: &Path, target: &str) -> (bool, String) {
     let target = format!("--target={target}");
-    said(hdl_tool("fusesoc", "fusesoc", folder).args(["--cores-root", ".", "run", &target, &core]))
+    said(hdl_tool("fusesoc", "fusesoc", folder).args(["--cores-root", ".", "run", &target, core]))
+}
+
+/// Changes the fifth value of a file of golden values.
+fn with_another_last_digit(file: &mut Artifact) {
+    let mut lines: Vec<String> = file.text.lines().map(str::to_owned).collect();
+    let digit = if lines[5].ends_with('0') { "1" } else { "0" };
+    let last = lines[5].len() - 1;
+    lines[5].replace_range(last.., digit);
+    file.text = lines.join("\n") + "\n";
 }
 
 #[test]
@@ -60,7 +71,7 @@ fn fusesoc_runs_every_target() {
         ("lint", "verilator -f"),
         ("synth", "yosys"),
     ] {
-        let (success, said) = fusesoc(&pipeline, folder.path(), target);
+        let (success, said) = fusesoc(&core_name(&pipeline), folder.path(), target);
         assert!(success && said.contains(expected), "{target}:\n{said}");
         assert!(!said.contains("WARNING") && !said.contains("%Warning"), "{target}:\n{said}");
     }
@@ -77,14 +88,10 @@ fn fusesoc_runs_every_target() {
 fn a_wrong_value_fails_both_simulations_in_fusesoc() {
     let (pipeline, folder) = changed(|files| {
         let file = files.iter_mut().find(|file| file.path == "vectors/phase.hex").unwrap();
-        let mut lines: Vec<String> = file.text.lines().map(str::to_owned).collect();
-        let digit = if lines[5].ends_with('0') { "1" } else { "0" };
-        let last = lines[5].len() - 1;
-        lines[5].replace_range(last.., digit);
-        file.text = lines.join("\n") + "\n";
+        with_another_last_digit(file);
     });
     for target in ["sim", "sim_verilator"] {
-        let (success, said) = fusesoc(&pipeline, folder.path(), target);
+        let (success, said) = fusesoc(&core_name(&pipeline), folder.path(), target);
         assert!(!success && said.contains("MISMATCH channel=output.phase record=4 "), "{target}:\n{said}");
     }
 }
@@ -93,7 +100,7 @@ fn a_wrong_value_fails_both_simulations_in_fusesoc() {
 fn a_loose_wire_fails_the_lint_in_fusesoc() {
     let (pipeline, folder) =
         changed(|files| replaced(files, "_pipeline.v", "\nendmodule", "\nwire loose = clk_i;\nendmodule"));
-    let (success, said) = fusesoc(&pipeline, folder.path(), "lint");
+    let (success, said) = fusesoc(&core_name(&pipeline), folder.path(), "lint");
     assert!(!success && said.contains("'loose'"), "{said}");
 }
 
@@ -101,7 +108,28 @@ fn a_loose_wire_fails_the_lint_in_fusesoc() {
 fn a_missing_file_in_the_list_fails_in_fusesoc() {
     let (pipeline, folder) =
         changed(|files| replaced(files, "pipeline.core", "rtl/vuris_framing.v", "rtl/vuris_framed.v"));
-    assert!(!fusesoc(&pipeline, folder.path(), "sim").0);
+    assert!(!fusesoc(&core_name(&pipeline), folder.path(), "sim").0);
+}
+
+/// An angle unit by itself has no harness for Verilator, but all the rest.
+#[test]
+fn fusesoc_runs_every_target_of_an_angle_unit_and_fails_where_a_value_is_wrong() {
+    let preset = ANGLE_PRESETS.iter().find(|preset| preset.name == "angle-16-iterative").unwrap();
+    let unit = AngleCore::parse(preset.name, preset.text).unwrap();
+    let mut files = angle_core_artifacts(&unit, "test", &angle_stimulus(&unit.unit, 1)[..200]);
+    files.extend(angle_package_artifacts(&unit, "test", &files));
+    let folder = tempfile::tempdir().unwrap();
+    artifact::write(folder.path(), &files).unwrap();
+    let core = format!("vuris:angle:angle_16_iterative_angle:{}", env!("CARGO_PKG_VERSION"));
+    for (target, expected) in [("sim", "PASS values=200"), ("lint", "verilator -f"), ("synth", "yosys")] {
+        let (success, said) = fusesoc(&core, folder.path(), target);
+        assert!(success && said.contains(expected) && !said.contains("%Warning"), "{target}:\n{said}");
+    }
+    let file = files.iter_mut().find(|file| file.path == "vectors/phase.hex").unwrap();
+    with_another_last_digit(file);
+    artifact::write(folder.path(), &files).unwrap();
+    let (success, said) = fusesoc(&core, folder.path(), "sim");
+    assert!(!success && said.contains("MISMATCH vector 4 "), "{said}");
 }
 
 /// What the guide says under "the same without FuseSoC" and "synthesise".

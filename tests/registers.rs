@@ -160,7 +160,7 @@ fn header_constants_and_documentation_are_the_hardwares_map() {
     let hardware: Vec<(u32, String)> = files["rtl/vuris_registers.v"]
         .lines()
         .filter_map(|line| {
-            let (label, rest) = line.trim().strip_prefix("6'd")?.split_once(": read_data_d = ")?;
+            let (label, rest) = line.trim().strip_prefix("4'd")?.split_once(": read_")?;
             Some((4 * label.parse::<u32>().unwrap(), rest.split_once("// ")?.1.to_owned()))
         })
         .collect();

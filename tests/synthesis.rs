@@ -15,8 +15,8 @@ use vuris::cosim::{IVERILOG, Tool, VVP, Verilator, find, output};
 use vuris::hdl::{Source, rtl_artifacts};
 use vuris::spec::{PRESETS, Pipeline};
 use vuris::synthesis::{
-    Accuracy, AccuracyMethod, Area, Baseline, Cache, Design, Family, Flow, Kind, Mapped, Measured,
-    OctaveMean, Program, Routed, Speed, Target, peers, wrapper,
+    Accuracy, AccuracyMethod, Area, Baseline, Cache, Family, Flow, Kind, Mapped, Measured, OctaveMean,
+    Program, Routed, Speed, Target, Verilog, peers, wrapper,
 };
 
 /// Runs `commands` on the core of `pipeline`, any warning an error; the number of cells of each type in the end.
@@ -105,8 +105,8 @@ const ADDER: &str = "`default_nettype none\nmodule adder (\n  input wire clk_i,\
      output reg [4:0] sum_o,\n  output wire parity_o\n);\n  always @(posedge clk_i) sum_o <= {1'b0, a_i} + {1'b0, b_i};\n  \
      assign parity_o = ^a_i;\nendmodule\n`default_nettype wire\n";
 
-fn adder() -> Design {
-    Design::new("adder", "clk_i", vec![Artifact::new("adder.v", ADDER)]).unwrap()
+fn adder() -> Verilog {
+    Verilog::new("adder", "clk_i", vec![Artifact::new("adder.v", ADDER)]).unwrap()
 }
 
 /// A flow of Debian's Yosys, older than the one of `make synth` and here wherever tests run; its results in `folder`.
@@ -129,13 +129,13 @@ fn a_small_design_has_the_area_that_one_counts_by_hand_and_is_synthesised_once()
     // Another text is another result; the same one is not computed again.
     let kept: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
     assert_eq!(kept.len(), 2, "{kept:?}");
-    let other =
-        Design::new("adder", "clk_i", vec![Artifact::new("adder.v", ADDER.replace("^a_i", "&a_i"))]).unwrap();
+    let other = Verilog::new("adder", "clk_i", vec![Artifact::new("adder.v", ADDER.replace("^a_i", "&a_i"))])
+        .unwrap();
     flow.area(&other, Family::Ice40).unwrap();
     flow.area(&adder(), Family::Ice40).unwrap();
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3);
     // What Yosys refuses is said and not kept.
-    let broken = Design::new("adder", "clk_i", vec![Artifact::new("adder.v", "module adder (;")]).unwrap();
+    let broken = Verilog::new("adder", "clk_i", vec![Artifact::new("adder.v", "module adder (;")]).unwrap();
     let problem = flow.area(&broken, Family::Ice40).unwrap_err().to_string();
     assert!(problem.contains("adder.v:1: ERROR"), "{problem}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3);
@@ -146,13 +146,13 @@ fn a_small_design_has_the_area_that_one_counts_by_hand_and_is_synthesised_once()
 #[test]
 fn the_register_wrapper_is_plain_verilog() {
     let pipeline = small("vuris", |_| {});
-    let whole = Target::of_pipeline(&pipeline, "test").unwrap().design;
+    let whole = Target::of_pipeline(&pipeline, "test").unwrap().verilog;
     let cache = tempfile::tempdir().unwrap();
     let flow = debian_flow(cache.path());
-    for design in [whole, adder()] {
+    for verilog in [whole, adder()] {
         let folder = tempfile::tempdir().unwrap();
-        let mut files = design.files().to_vec();
-        files.push(Artifact::new("wrapper.v", wrapper(&design, &flow.ports(&design).unwrap()).unwrap()));
+        let mut files = verilog.files().to_vec();
+        files.push(Artifact::new("wrapper.v", wrapper(&verilog, &flow.ports(&verilog).unwrap()).unwrap()));
         artifact::write(folder.path(), &files).unwrap();
         let names: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
         let top = "vuris_register_wrapper";
@@ -181,8 +181,8 @@ fn the_register_wrapper_is_plain_verilog() {
 /// wrapped adder in Icarus against the same in integers.
 #[test]
 fn the_register_wrapper_lets_every_bit_through() {
-    let (design, cache) = (adder(), tempfile::tempdir().unwrap());
-    let text = wrapper(&design, &debian_flow(cache.path()).ports(&design).unwrap()).unwrap();
+    let (verilog, cache) = (adder(), tempfile::tempdir().unwrap());
+    let text = wrapper(&verilog, &debian_flow(cache.path()).ports(&verilog).unwrap()).unwrap();
     const CLOCKS: usize = 400;
     // A maximal shift register of 16 bits.
     let mut state = 1_u32;

@@ -31,7 +31,29 @@ module vuris_pipeline (
   output wire        m_axis_tuser,      // first pixel of a result frame
   output wire [31:0] sets_done_o,       // complete sets since reset
   output wire [31:0] sets_discarded_o,  // sets discarded since reset: a frame missing, too short or too long
-  output wire [31:0] stall_clocks_o     // clocks since reset in which an offered sample was not taken
+  output wire [31:0] stall_clocks_o,    // clocks since reset in which an offered sample was not taken
+  input  wire        s_axil_awvalid,    // a write's address is offered
+  output wire        s_axil_awready,    // it is taken
+  input  wire [7:0]  s_axil_awaddr,     // byte address, see vuris_registers
+  input  wire        s_axil_wvalid,     // a write's data are offered
+  output wire        s_axil_wready,     // they are taken
+  input  wire [31:0] s_axil_wdata,      // the data
+  input  wire [3:0]  s_axil_wstrb,      // which bytes of them are written
+  output wire        s_axil_bvalid,     // a write's answer is offered
+  input  wire        s_axil_bready,     // it is taken
+  output wire [1:0]  s_axil_bresp,      // OKAY or SLVERR
+  input  wire        s_axil_arvalid,    // a read's address is offered
+  output wire        s_axil_arready,    // it is taken
+  input  wire [7:0]  s_axil_araddr,     // byte address
+  output wire        s_axil_rvalid,     // a read's answer is offered
+  input  wire        s_axil_rready,     // it is taken
+  output wire [31:0] s_axil_rdata,      // the data
+  output wire [1:0]  s_axil_rresp,      // OKAY or SLVERR
+  output wire [31:0] frequency_factor_o,  // to the modulation hardware: what the register holds
+  output wire        next_frame_strobe_o,  // to the modulation hardware: for a clock, what follows is new
+  output wire        next_frame_first_o,   // the next raw frame is a set's first: its first pixel carries the start of set
+  output wire [2:0]  next_frame_step_o,    // phase step that the next raw frame must have
+  output wire [15:0] next_frame_phase_o    // that step, turns / 2^16
 );
 
   // A sensor that cannot wait loses samples where this counts.
@@ -73,6 +95,11 @@ module vuris_pipeline (
   wire first_frame;
   wire [11:0] sample;
   wire [14:0] address;
+  wire frame;
+  wire lost;
+  wire next_first;
+  wire [2:0] place;
+  wire [2:0] next_place;
   wire [2:0] step;
 
   vuris_framing u_framing (
@@ -90,10 +117,58 @@ module vuris_pipeline (
     .take_o          (take),
     .sample_o        (sample),
     .address_o       (address),
-    .step_o          (step),
+    .place_o         (place),
+    .frame_o         (frame),
+    .lost_o          (lost),
+    .next_place_o    (next_place),
+    .next_first_o    (next_first),
     .first_frame_o   (first_frame),
     .sets_done_o     (sets_done_o),
     .sets_discarded_o(sets_discarded_o)
+  );
+
+  vuris_sequencer u_sequencer (
+    .clk_i        (clk_i),
+    .rst_ni       (rst_ni),
+    .frame_i      (frame),
+    .lost_i       (lost),
+    .place_i      (place),
+    .next_place_i (next_place),
+    .next_first_i (next_first),
+    .step_o       (step),
+    .next_strobe_o(next_frame_strobe_o),
+    .next_first_o (next_frame_first_o),
+    .next_step_o  (next_frame_step_o),
+    .next_phase_o (next_frame_phase_o)
+  );
+
+  vuris_registers u_registers (
+    .clk_i                (clk_i),
+    .rst_ni               (rst_ni),
+    .awvalid_i            (s_axil_awvalid),
+    .awready_o            (s_axil_awready),
+    .awaddr_i             (s_axil_awaddr),
+    .wvalid_i             (s_axil_wvalid),
+    .wready_o             (s_axil_wready),
+    .wdata_i              (s_axil_wdata),
+    .wstrb_i              (s_axil_wstrb),
+    .bvalid_o             (s_axil_bvalid),
+    .bready_i             (s_axil_bready),
+    .bresp_o              (s_axil_bresp),
+    .arvalid_i            (s_axil_arvalid),
+    .arready_o            (s_axil_arready),
+    .araddr_i             (s_axil_araddr),
+    .rvalid_o             (s_axil_rvalid),
+    .rready_i             (s_axil_rready),
+    .rdata_o              (s_axil_rdata),
+    .rresp_o              (s_axil_rresp),
+    .frequency_factor_o   (frequency_factor_o),
+    .sets_done_i          (sets_done_o),
+    .sets_discarded_i     (sets_discarded_o),
+    .stall_clocks_i       (stall_clocks_o),
+    .delivered_i          (m_axis_tvalid && m_axis_tready),
+    .delivered_first_i    (m_axis_tuser),
+    .delivered_saturated_i(m_axis_tdata[81])
   );
 
   // The angle unit takes sums when it can; what comes after it moves as one, unless the last word waits.
@@ -128,7 +203,6 @@ module vuris_pipeline (
     .offset_o       (sums_offset),
     .saturated_o    (sums_saturated)
   );
-
   wire angle_ready;
   wire angle_valid;
   wire angle_zero;
@@ -178,14 +252,12 @@ module vuris_pipeline (
     .sum_i    (angle_offset),
     .offset_o (result_offset)
   );
-
   vuris_distance u_distance (
     .clk_i     (clk_i),
     .advance_i (advance),
     .phase_i   (angle_phase),
     .distance_o(result_distance)
   );
-
   wire result_valid;
   wire result_zero;
   wire result_first;

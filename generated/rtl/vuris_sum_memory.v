@@ -4,14 +4,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // One word a pixel, one write and one read a clock, the read word registered: the form that synthesis infers as block
 // RAM. It does not define what a read returns while the same word is written: here that can only be a read in a set's
-// first frame, which nobody looks at.
+// first frame, which nobody looks at. It is cut into columns as wide as block RAMs can be, so that few of their bits lie idle.
 //
 //   write 5 <= a  | read 5 (next clock or later) | read_data_o = a
 //   read_i = 0    |                              | read_data_o stays
 //   after power-up| read 5                       | undefined until 5 is written
 `default_nettype none
 module vuris_sum_memory #(
-  parameter WORD_BITS    = 48,  // a pixel's sums and flag
+  parameter WORD_BITS    = 41,  // what is kept of a pixel
   parameter ADDRESS_BITS = 15,  // a pixel's number
   parameter WORDS        = 19200  // pixels
 ) (
@@ -24,14 +24,48 @@ module vuris_sum_memory #(
   output wire [WORD_BITS-1:0]    read_data_o       // the word, one clock later
 );
 
-  reg [WORD_BITS-1:0] memory [0:WORDS-1];
-  reg [WORD_BITS-1:0] read_data_q;
+  // Bits 17 to 0.
+  reg [17:0] memory_0 [0:WORDS-1];
+  reg [17:0] read_0_q;
 
-  assign read_data_o = read_data_q;
+  assign read_data_o[17:0] = read_0_q;
 
   always @(posedge clk_i) begin
-    if (write_i) memory[write_address_i] <= write_data_i;
-    if (read_i) read_data_q <= memory[read_address_i];
+    if (write_i) memory_0[write_address_i] <= write_data_i[17:0];
+    if (read_i) read_0_q <= memory_0[read_address_i];
+  end
+
+  // Bits 35 to 18.
+  reg [17:0] memory_1 [0:WORDS-1];
+  reg [17:0] read_1_q;
+
+  assign read_data_o[35:18] = read_1_q;
+
+  always @(posedge clk_i) begin
+    if (write_i) memory_1[write_address_i] <= write_data_i[35:18];
+    if (read_i) read_1_q <= memory_1[read_address_i];
+  end
+
+  // Bits 39 to 36.
+  reg [3:0] memory_2 [0:WORDS-1];
+  reg [3:0] read_2_q;
+
+  assign read_data_o[39:36] = read_2_q;
+
+  always @(posedge clk_i) begin
+    if (write_i) memory_2[write_address_i] <= write_data_i[39:36];
+    if (read_i) read_2_q <= memory_2[read_address_i];
+  end
+
+  // Bits 40 to 40.
+  reg [0:0] memory_3 [0:WORDS-1];
+  reg [0:0] read_3_q;
+
+  assign read_data_o[40:40] = read_3_q;
+
+  always @(posedge clk_i) begin
+    if (write_i) memory_3[write_address_i] <= write_data_i[40:40];
+    if (read_i) read_3_q <= memory_3[read_address_i];
   end
 
 endmodule

@@ -24,7 +24,28 @@ module bench_taps (
   output wire [31:0] sets_done_o,      // counter
   output wire [31:0] sets_discarded_o, // counter
   output wire [31:0] stall_clocks_o,   // counter
+  input  wire        s_axil_awvalid,   // registers
+  output wire        s_axil_awready,   // registers
+  input  wire [7:0]  s_axil_awaddr,    // registers
+  input  wire        s_axil_wvalid,    // registers
+  output wire        s_axil_wready,    // registers
+  input  wire [31:0] s_axil_wdata,     // registers
+  input  wire [3:0]  s_axil_wstrb,     // registers
+  output wire        s_axil_bvalid,    // registers
+  input  wire        s_axil_bready,    // registers
+  output wire [1:0]  s_axil_bresp,     // registers
+  input  wire        s_axil_arvalid,   // registers
+  output wire        s_axil_arready,   // registers
+  input  wire [7:0]  s_axil_araddr,    // registers
+  output wire        s_axil_rvalid,    // registers
+  input  wire        s_axil_rready,    // registers
+  output wire [31:0] s_axil_rdata,     // registers
+  output wire [1:0]  s_axil_rresp,     // registers
+  output wire [31:0] frequency_factor_o,  // to the modulation hardware
+  output wire        next_frame_strobe_o, // to the modulation hardware: what follows is new
+  output wire [19:0] next_frame_o,       // {first of a set, phase step, its phase}
   output wire [3:0] strobe_o,         // a pixel passes the stage
+  output wire        padding_o,        // a bit between the result's fields is not 0
   output wire [959:0] values_o          // what it carries
 );
 
@@ -43,8 +64,32 @@ module bench_taps (
     .m_axis_tuser    (m_axis_tuser),
     .sets_done_o     (sets_done_o),
     .sets_discarded_o(sets_discarded_o),
-    .stall_clocks_o  (stall_clocks_o)
+    .stall_clocks_o  (stall_clocks_o),
+    .s_axil_awvalid  (s_axil_awvalid),
+    .s_axil_awready  (s_axil_awready),
+    .s_axil_awaddr   (s_axil_awaddr),
+    .s_axil_wvalid   (s_axil_wvalid),
+    .s_axil_wready   (s_axil_wready),
+    .s_axil_wdata    (s_axil_wdata),
+    .s_axil_wstrb    (s_axil_wstrb),
+    .s_axil_bvalid   (s_axil_bvalid),
+    .s_axil_bready   (s_axil_bready),
+    .s_axil_bresp    (s_axil_bresp),
+    .s_axil_arvalid  (s_axil_arvalid),
+    .s_axil_arready  (s_axil_arready),
+    .s_axil_araddr   (s_axil_araddr),
+    .s_axil_rvalid   (s_axil_rvalid),
+    .s_axil_rready   (s_axil_rready),
+    .s_axil_rdata    (s_axil_rdata),
+    .s_axil_rresp    (s_axil_rresp),
+    .frequency_factor_o(frequency_factor_o),
+    .next_frame_strobe_o(next_frame_strobe_o),
+    .next_frame_first_o (next_frame_o[19]),
+    .next_frame_step_o  (next_frame_o[16 +: 3]),
+    .next_frame_phase_o (next_frame_o[15:0])
   );
+
+  assign padding_o = |(m_axis_tdata & 88'b1111110011111000000000000000000000000000000000000000000000000000111111000000000000000000);
 
   // accumulator
   assign strobe_o[0] = dut.sums_valid && dut.sums_taken;

@@ -7,6 +7,7 @@
 //   +seed=N        seed of pauses and stops (1)
 //   +pause=P       percent of clocks without input (25)
 //   +stop=P        percent of clocks without output (25)
+//   built with --coverage: leaves coverage.dat
 //   +dump=FILE     waveform (where built with --trace-fst), from clock +dump_from=C to +dump_to=C
 // The last line is `PASS values=… clocks=…` or `FAIL mismatches=…`.
 #include <cinttypes>
@@ -23,6 +24,9 @@
 #include "verilated.h"
 #if VM_TRACE
 #include "verilated_fst_c.h"
+#endif
+#if VM_COVERAGE
+#include "verilated_cov.h"
 #endif
 
 namespace {
@@ -378,6 +382,7 @@ int main(int argc, char** argv) {
           check("output.last", 1, r % kPixels % kWidth == kWidth - 1, top->m_axis_tlast);
           saturated_pixels += expected[saturated_vector][r];
           set_number += r % kPixels == 0;
+          if (top->padding_o) check("output.padding", 1, 0, 1);
         }
       }
       record[stage]++;
@@ -417,7 +422,7 @@ int main(int argc, char** argv) {
         exact = true;
       } else if (next >> 16 == 0xa) {  // reset: what is still under way is lost
         word++;
-        wait_for = 4;
+        wait_for = 1 + random.next() % 4;
         resetting = true;
         reset_n = false;
         for (int stage = 0; stage < kStages; stage++) {
@@ -474,6 +479,9 @@ int main(int argc, char** argv) {
   if (trace) trace->close();
 #endif
   top->final();
+#if VM_COVERAGE
+  context->coveragep()->write("coverage.dat");
+#endif
 
   for (int stage = 0; stage < kStages; stage++) {
     if (record[stage] >= kRecords) continue;

@@ -14,9 +14,11 @@
 module testbench;
 
   localparam RECORDS  = 19200;
-  localparam STIMULUS = 96481;
+  localparam STIMULUS = 96495;
   localparam EPOCHS   = 1;
-  localparam RESTS    = 1;
+  localparam RESTS    = 2;
+  localparam ANNOUNCEMENTS = 7;
+  localparam ACCESSES = 13;
   localparam PIXELS   = 19200;
   localparam WIDTH    = 160;
   localparam SILENCE  = 64;  // longest pause inside a frame, clocks
@@ -29,8 +31,10 @@ module testbench;
   always #5 clk = !clk;
 
   reg  [19:0] stimulus [0:STIMULUS-1];
-  reg  [31:0] epoch_end [0:EPOCHS-1];
+  reg  [31:0] epoch_end [0:2*EPOCHS-1];  // results and announcements due
   reg  [31:0] rests [0:3*RESTS-1];  // results due, sets done, sets discarded
+  reg  [19:0] announcements [0:6];  // {first of a set, phase step, its phase}
+  reg  [31:0] accesses [0:38];  // {write, okay, counter, strobes, address}, written, read (or the factor then)
   reg  [15:0] expected_in_phase [0:RECORDS-1];
   reg  [14:0] expected_quadrature [0:RECORDS-1];
   reg  [15:0] expected_offset_sum [0:RECORDS-1];
@@ -54,6 +58,26 @@ module testbench;
   wire [31:0] sets_done;
   wire [31:0] sets_discarded;
   wire [31:0] stall_clocks;
+  wire        next_frame_strobe;
+  wire [19:0] next_frame;
+  reg         s_axil_awvalid = 0;
+  wire        s_axil_awready;
+  reg  [7:0]  s_axil_awaddr = 0;
+  reg         s_axil_wvalid = 0;
+  wire        s_axil_wready;
+  reg  [31:0] s_axil_wdata = 0;
+  reg  [3:0]  s_axil_wstrb = 0;
+  wire        s_axil_bvalid;
+  reg         s_axil_bready = 0;
+  wire [1:0]  s_axil_bresp;
+  reg         s_axil_arvalid = 0;
+  wire        s_axil_arready;
+  reg  [7:0]  s_axil_araddr = 0;
+  wire        s_axil_rvalid;
+  reg         s_axil_rready = 0;
+  wire [31:0] s_axil_rdata;
+  wire [1:0]  s_axil_rresp;
+  wire [31:0] frequency_factor;
 
   vuris_pipeline dut (
     .clk_i           (clk),
@@ -70,7 +94,29 @@ module testbench;
     .m_axis_tuser    (m_axis_tuser),
     .sets_done_o     (sets_done),
     .sets_discarded_o(sets_discarded),
-    .stall_clocks_o  (stall_clocks)
+    .stall_clocks_o  (stall_clocks),
+    .s_axil_awvalid  (s_axil_awvalid),
+    .s_axil_awready  (s_axil_awready),
+    .s_axil_awaddr   (s_axil_awaddr),
+    .s_axil_wvalid   (s_axil_wvalid),
+    .s_axil_wready   (s_axil_wready),
+    .s_axil_wdata    (s_axil_wdata),
+    .s_axil_wstrb    (s_axil_wstrb),
+    .s_axil_bvalid   (s_axil_bvalid),
+    .s_axil_bready   (s_axil_bready),
+    .s_axil_bresp    (s_axil_bresp),
+    .s_axil_arvalid  (s_axil_arvalid),
+    .s_axil_arready  (s_axil_arready),
+    .s_axil_araddr   (s_axil_araddr),
+    .s_axil_rvalid   (s_axil_rvalid),
+    .s_axil_rready   (s_axil_rready),
+    .s_axil_rdata    (s_axil_rdata),
+    .s_axil_rresp    (s_axil_rresp),
+    .frequency_factor_o(frequency_factor),
+    .next_frame_strobe_o(next_frame_strobe),
+    .next_frame_first_o (next_frame[19]),
+    .next_frame_step_o  (next_frame[16 +: 3]),
+    .next_frame_phase_o (next_frame[15:0])
   );
 
   integer seed;
@@ -91,6 +137,9 @@ module testbench;
     $readmemh("vectors/stimulus.hex", stimulus);
     $readmemh("vectors/epochs.hex", epoch_end);
     $readmemh("vectors/rests.hex", rests);
+    $readmemh("vectors/announcements.hex", announcements);
+    $readmemh("vectors/accesses.hex", accesses);
+    register_seed = seed + 7919;  // the stream's traffic stays what it is without accesses
     $readmemh("vectors/in_phase.hex", expected_in_phase);
     $readmemh("vectors/quadrature.hex", expected_quadrature);
     $readmemh("vectors/offset_sum.hex", expected_offset_sum);
@@ -119,8 +168,30 @@ module testbench;
   integer run        = 0;  // length of the present pause
   integer burst      = 0;  // clocks that are left of the present stop or go
   integer record [0:STAGES-1];  // next record of each stage
+  integer announcement = 0;  // next of the announcements
+  integer due    = 0;  // accesses that have begun
+  integer issue  = 0;  // next access that is offered to the core
+  integer answer = 0;  // next access whose answer is awaited
+  integer saturated_pixels = 0;  // taken since reset
+  integer set_number       = 0;  // of the last pixel taken since reset
   integer pixel;
   integer stage;
+  reg  [19:0] announced = 20'h80000;  // what is to be told at present
+  integer register_seed;
+  integer a_wait  = 0;  // clocks before the address is offered
+  integer w_wait  = 0;  // clocks before the data are offered
+  reg         issuing = 1'b0;  // an access is being offered
+  reg         aw_open = 1'b0;
+  reg         w_open  = 1'b0;
+  reg         ar_open = 1'b0;
+  reg         b_held  = 1'b0;
+  reg         r_held  = 1'b0;
+  reg  [1:0]  b_was   = 2'd0;
+  reg  [33:0] r_was   = 34'd0;
+  reg  [31:0] head;
+  reg  [31:0] wanted_data;
+  reg  [31:0] counted [0:15];  // what the counter was when the address was taken
+  reg  [31:0] factor = 32'd30;
   reg        resetting = 1'b1;
   reg        finished  = 1'b0;
   reg        resting   = 1'b0;
@@ -150,10 +221,140 @@ module testbench;
     end
   endtask
 
+  // An answer of the core to access number `answer`.
+  task answered(input is_write, input [1:0] response, input [31:0] data);
+    begin
+      idle = 0;
+      head = accesses[3*answer];
+      if (answer >= issue || head[17] !== is_write) begin
+        mismatches = mismatches + 1;
+        if (mismatches <= LIMIT) $display("REGISTER access=%0d clock=%0d: an answer that is not due", answer, clocks);
+      end else begin
+        wanted_data = head[15:12] != 0 ? counted[answer % 16] : accesses[3*answer+2];
+        if (response !== (head[16] ? 2'b00 : 2'b10) || (!is_write && data !== wanted_data)) begin
+          mismatches = mismatches + 1;
+          if (mismatches <= LIMIT)
+            $display("REGISTER access=%0d write=%0d address=%0h clock=%0d expected=%0h okay=%0d actual=%0h response=%b",
+                     answer, is_write, head[7:0], clocks, wanted_data, head[16], data, response);
+        end
+        compared = compared + (is_write ? 1 : 2);
+        answer   = answer + 1;
+      end
+    end
+  endtask
+
   // The checks, with what the core shows before this clock's edge.
   always @(posedge clk) begin
     clocks = clocks + 1;
     idle   = idle + 1;
+
+    // The registers: answers, then what is taken in this clock, while the counters still are what they were before it.
+    if (!rst_n) factor = 32'd30;
+    else begin
+      if (s_axil_bvalid && !b_held && answer < issue) factor = accesses[3*answer+2];
+      if (frequency_factor !== factor) begin
+        mismatches = mismatches + 1;
+        if (mismatches <= LIMIT)
+          $display("REGISTER frequency_factor clock=%0d expected=%0h actual=%0h", clocks, factor, frequency_factor);
+      end
+      if ((b_held && (s_axil_bvalid !== 1'b1 || s_axil_bresp !== b_was))
+          || (r_held && (s_axil_rvalid !== 1'b1 || {s_axil_rresp, s_axil_rdata} !== r_was))) begin
+        mismatches = mismatches + 1;
+        if (mismatches <= LIMIT) $display("UNSTABLE clock=%0d: a register's answer changed while it waited", clocks);
+      end
+      if (s_axil_bvalid !== 1'b0 && s_axil_bready) answered(1'b1, s_axil_bresp, 32'd0);
+      if (s_axil_rvalid !== 1'b0 && s_axil_rready) answered(1'b0, s_axil_rresp, s_axil_rdata);
+    end
+    b_held = rst_n && s_axil_bvalid === 1'b1 && !s_axil_bready;
+    b_was  = s_axil_bresp;
+    r_held = rst_n && s_axil_rvalid === 1'b1 && !s_axil_rready;
+    r_was  = {s_axil_rresp, s_axil_rdata};
+    if (issuing) begin
+      if (s_axil_awvalid && s_axil_awready) begin
+        s_axil_awvalid <= 1'b0;
+        s_axil_awaddr  <= $random(register_seed);
+        aw_open         = 1'b0;
+      end
+      if (s_axil_wvalid && s_axil_wready) begin
+        s_axil_wvalid <= 1'b0;
+        s_axil_wdata  <= $random(register_seed);
+        s_axil_wstrb  <= $random(register_seed);
+        w_open         = 1'b0;
+      end
+      if (s_axil_arvalid && s_axil_arready) begin
+        s_axil_arvalid <= 1'b0;
+        s_axil_araddr  <= $random(register_seed);
+        ar_open         = 1'b0;
+        head            = accesses[3*issue];
+        case (head[15:12])
+          4'd1: counted[issue % 16] = sets_done;
+          4'd2: counted[issue % 16] = sets_discarded;
+          4'd3: counted[issue % 16] = stalls;
+          4'd4: counted[issue % 16] = saturated_pixels;
+          4'd5: counted[issue % 16] = set_number;
+          default: ;
+        endcase
+      end
+      if (!aw_open && !w_open && !ar_open) begin
+        issuing = 1'b0;
+        issue   = issue + 1;
+        idle    = 0;
+      end
+    end
+    // Reads may follow reads, and writes writes, before they are answered.
+    if (rst_n && !issuing && issue < due && issue < answer + 8
+        && (issue == answer || accesses[3*issue][17] == accesses[3*issue-3][17])) begin
+      issuing = 1'b1;
+      head    = accesses[3*issue];
+      aw_open = head[17];
+      w_open  = head[17];
+      ar_open = !head[17];
+      a_wait  = $unsigned($random(register_seed)) % 2 ? $unsigned($random(register_seed)) % 6 : 0;
+      w_wait  = $unsigned($random(register_seed)) % 2 ? $unsigned($random(register_seed)) % 6 : 0;
+    end else if (issuing) begin
+      head = accesses[3*issue];
+      if (a_wait > 0) a_wait = a_wait - 1;
+      else begin
+        if (aw_open && !s_axil_awvalid) begin
+          s_axil_awvalid <= 1'b1;
+          s_axil_awaddr  <= head[7:0];
+        end
+        if (ar_open && !s_axil_arvalid) begin
+          s_axil_arvalid <= 1'b1;
+          s_axil_araddr  <= head[7:0];
+        end
+      end
+      if (w_wait > 0) w_wait = w_wait - 1;
+      else if (w_open && !s_axil_wvalid) begin
+        s_axil_wvalid <= 1'b1;
+        s_axil_wdata  <= accesses[3*issue+1];
+        s_axil_wstrb  <= head[11:8];
+      end
+    end
+    s_axil_bready <= $unsigned($random(register_seed)) % 100 >= stop;
+    s_axil_rready <= $unsigned($random(register_seed)) % 100 >= stop;
+
+    // What the modulation hardware is told.
+    if (!rst_n) announced = 20'h80000;
+    else begin
+      if (next_frame_strobe !== 1'b0) begin
+        idle = 0;
+        if (announcement >= epoch_end[2*epoch+1]) begin
+          mismatches = mismatches + 1;
+          if (mismatches <= LIMIT) $display("SEQUENCER announcement=%0d clock=%0d: it is not due", announcement, clocks);
+        end else begin
+          announced    = announcements[announcement];
+          announcement = announcement + 1;
+          compared     = compared + 1;
+        end
+      end
+      if (next_frame !== announced) begin
+        mismatches = mismatches + 1;
+        if (mismatches <= LIMIT)
+          $display("SEQUENCER announcement=%0d clock=%0d {first, step, phase} expected=%b actual=%b",
+                   announcement - 1, clocks, announced, next_frame);
+      end
+    end
     if (dumping && clocks == dump_from) $dumpon;
     if (dumping && clocks == dump_to) $dumpoff;
 
@@ -164,13 +365,16 @@ module testbench;
     held_valid = m_axis_tvalid === 1'b1 && !m_axis_tready && rst_n;
     held       = {m_axis_tuser, m_axis_tlast, m_axis_tdata};
     if (s_axis_tvalid && s_axis_tready) idle = 0;
-    if (!rst_n) stalls = 0;
-    else if (s_axis_tvalid && !s_axis_tready) stalls = stalls + 1;
+    if (!rst_n) begin
+      stalls           = 0;
+      saturated_pixels = 0;
+      set_number       = 0;
+    end else if (s_axis_tvalid && !s_axis_tready) stalls = stalls + 1;
 
     if (rst_n) begin
       if ((dut.sums_valid && dut.sums_taken) !== 1'b0) begin  // accumulator
         idle = 0;
-        if (record[0] >= epoch_end[epoch]) surplus(0);
+        if (record[0] >= epoch_end[2*epoch]) surplus(0);
         else begin
           if (dut.sums_in_phase !== expected_in_phase[record[0]])
             report("accumulator.in_phase", record[0], {48'd0, expected_in_phase[record[0]]},
@@ -190,7 +394,7 @@ module testbench;
       end
       if ((dut.angle_valid && dut.advance) !== 1'b0) begin  // angle
         idle = 0;
-        if (record[1] >= epoch_end[epoch]) surplus(1);
+        if (record[1] >= epoch_end[2*epoch]) surplus(1);
         else begin
           if (dut.angle_phase !== expected_phase[record[1]])
             report("angle.phase", record[1], {46'd0, expected_phase[record[1]]},
@@ -201,7 +405,7 @@ module testbench;
       end
       if ((dut.result_valid && dut.advance) !== 1'b0) begin  // results
         idle = 0;
-        if (record[2] >= epoch_end[epoch]) surplus(2);
+        if (record[2] >= epoch_end[2*epoch]) surplus(2);
         else begin
           if (dut.result_amplitude !== expected_amplitude[record[2]])
             report("results.amplitude", record[2], {48'd0, expected_amplitude[record[2]]},
@@ -221,7 +425,7 @@ module testbench;
       end
       if ((m_axis_tvalid && m_axis_tready) !== 1'b0) begin  // output
         idle = 0;
-        if (record[3] >= epoch_end[epoch]) surplus(3);
+        if (record[3] >= epoch_end[2*epoch]) surplus(3);
         else begin
           if (m_axis_tdata[0 +: 18] !== expected_phase[record[3]])
             report("output.phase", record[3], {46'd0, expected_phase[record[3]]},
@@ -246,13 +450,16 @@ module testbench;
           if (m_axis_tuser !== (pixel == 0)) report("output.first", record[3], pixel == 0, m_axis_tuser);
           if (m_axis_tlast !== (pixel % WIDTH == WIDTH - 1))
             report("output.last", record[3], pixel % WIDTH == WIDTH - 1, m_axis_tlast);
+          if ((m_axis_tdata & 88'b1111110011111000000000000000000000000000000000000000000000000000111111000000000000000000) !== 88'd0) report("output.padding", record[3], 64'd0, 64'd1);
           compared = compared + 2;
+          saturated_pixels = saturated_pixels + expected_saturated[record[3]];
+          if (pixel == 0) set_number = set_number + 1;
         end
         record[3] = record[3] + 1;
       end
     end
 
-    if (resting && idle > SILENCE + 64 && record[STAGES-1] >= rests[3*rest]) begin
+    if (resting && answer == due && idle > SILENCE + 64 && record[STAGES-1] >= rests[3*rest]) begin
       resting = 1'b0;
       if (sets_done !== rests[3*rest+1] || sets_discarded !== rests[3*rest+2] || stall_clocks !== stalls) begin
         mismatches = mismatches + 1;
@@ -263,13 +470,21 @@ module testbench;
       rest     = rest + 1;
     end
 
-    if (!finished && ((word == STIMULUS && wait_for == 0 && !resting) || idle > PATIENCE || mismatches > LIMIT)) begin
+    if (!finished && ((word == STIMULUS && wait_for == 0 && !resting && answer == due) || idle > PATIENCE || mismatches > LIMIT)) begin
       finished = 1'b1;
       for (stage = 0; stage < STAGES; stage = stage + 1) begin
         if (record[stage] < RECORDS) begin
           mismatches = mismatches + 1;
           $display("MISSING stage=%0d record=%0d of %0d clock=%0d", stage, record[stage], RECORDS, clocks);
         end
+      end
+      if (announcement != ANNOUNCEMENTS) begin
+        mismatches = mismatches + 1;
+        $display("SEQUENCER announcement=%0d of %0d clock=%0d: it is missing", announcement, ANNOUNCEMENTS, clocks);
+      end
+      if (answer != due) begin
+        mismatches = mismatches + 1;
+        $display("REGISTER access=%0d of %0d clock=%0d: no answer", answer, ACCESSES, clocks);
       end
       if (word != STIMULUS) begin
         mismatches = mismatches + 1;
@@ -302,14 +517,28 @@ module testbench;
           exact    = 1'b1;
         end else if (next[19:16] == 4'ha) begin  // reset: what is still under way is lost
           word      = word + 1;
-          wait_for  = 4;
+          wait_for  = 1 + $unsigned($random(seed)) % 4;
           resetting = 1'b1;
           rst_n    <= 1'b0;
           for (stage = 0; stage < STAGES; stage = stage + 1) begin
-            if (record[stage] > epoch_end[epoch]) surplus(stage);
-            record[stage] = epoch_end[epoch];
+            if (record[stage] > epoch_end[2*epoch]) surplus(stage);
+            record[stage] = epoch_end[2*epoch];
           end
-          epoch = epoch + 1;
+          if (announcement > epoch_end[2*epoch+1]) begin
+            mismatches = mismatches + 1;
+            $display("SEQUENCER announcement=%0d clock=%0d: it is not due", announcement, clocks);
+          end
+          announcement = epoch_end[2*epoch+1];
+          epoch        = epoch + 1;
+          issue        = due;
+          answer       = due;
+          issuing         = 1'b0;
+          s_axil_awvalid <= 1'b0;
+          s_axil_wvalid  <= 1'b0;
+          s_axil_arvalid <= 1'b0;
+        end else if (next[19:16] == 4'hc) begin  // the next access to a register begins
+          word = word + 1;
+          due  = due + 1;
         end else if (next[19:16] == 4'hb) begin  // rest: everything comes out
           word    = word + 1;
           resting = 1'b1;

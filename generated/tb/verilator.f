@@ -3,11 +3,13 @@
 rtl/vuris_stream_register.v
 rtl/vuris_delay.v
 rtl/vuris_framing.v
+rtl/vuris_sequencer.v
 rtl/vuris_sum_memory.v
 rtl/vuris_accumulator.v
 rtl/vuris_amplitude.v
 rtl/vuris_offset.v
 rtl/vuris_distance.v
+rtl/vuris_registers.v
 rtl/vuris_angle.v
 rtl/vuris_pipeline.v
 tb/bench_taps.v

@@ -4,9 +4,11 @@ use super::print::{counted, say};
 use super::{agreement, golden_of_preset, progress};
 use crate::artifact::{self, Difference};
 use crate::hdl::{Source, all_artifacts, angle_core_artifacts, angle_stimulus};
-use crate::package::package_artifacts;
+use crate::package::{angle_package_artifacts, package_artifacts};
 use crate::problem::Result;
-use crate::spec::Design;
+use crate::report::resources;
+use crate::spec::{Design, Pipeline};
+use crate::synthesis::{Baseline, Target};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -45,6 +47,13 @@ fn quoted(argument: &str) -> String {
     }
 }
 
+/// The table of what synthesis has found for this very core, where `vuris synth` has written it to `folder`.
+fn measured(folder: &Path, pipeline: &Pipeline, spec: &str) -> Result<Vec<String>> {
+    let Some(baseline) = Baseline::read(&folder.join("synthesis.json"))? else { return Ok(Vec::new()) };
+    let target = Target::of_pipeline(pipeline, spec)?;
+    Ok(resources(&baseline, &target.name, &target.verilog.digest()))
+}
+
 impl Generate {
     pub(super) fn run(self) -> Result<ExitCode> {
         let spec = shown_spec(&self.spec);
@@ -53,12 +62,15 @@ impl Generate {
                 let source = Source { pipeline: &pipeline, spec: &spec };
                 let golden = progress::during("running the model", || golden_of_preset(&pipeline))?;
                 let mut artifacts = all_artifacts(&source, &golden);
-                artifacts.extend(package_artifacts(&source, &artifacts, &[]));
+                let resources = measured(&self.out, &pipeline, &spec)?;
+                artifacts.extend(package_artifacts(&source, &artifacts, &resources));
                 (pipeline.name.clone(), artifacts)
             }
             Design::Angle(core) => {
                 let vectors = angle_stimulus(&core.unit, ANGLE_SEED);
-                (core.name.clone(), angle_core_artifacts(&core, &spec, &vectors))
+                let mut artifacts = angle_core_artifacts(&core, &spec, &vectors);
+                artifacts.extend(angle_package_artifacts(&core, &spec, &artifacts));
+                (core.name.clone(), artifacts)
             }
         };
         if !self.check {

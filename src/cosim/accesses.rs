@@ -32,11 +32,16 @@ fn everything_once() -> Vec<StreamEvent> {
     let last = (1 << ADDRESS_BITS) - 1;
     let mut events = read_all();
     events.extend([1, 2, 3, end, end + 1, last].map(read));
-    events.extend(addresses().chain([end, last]).map(|address| write(address, 0xdead_beef, 15)));
+    // Every bit of an address counts: beyond the map nothing is there again.
+    let beyond = || (0..ADDRESS_BITS).map(|bit| 1 << bit).filter(move |&bit| bit >= end);
+    let again: Vec<u32> = beyond().flat_map(|bit| addresses().map(move |address| address | bit)).collect();
+    events.extend(again.iter().copied().map(read));
+    let writes = addresses().chain([end, last]).chain(again);
+    events.extend(writes.map(|address| write(address, 0xdead_beef, 15)));
     events.extend(read_all());
     for (address, _) in addresses().zip(REGISTERS).filter(|(_, register)| register.writable()) {
         for strobes in 0..16 {
-            events.push(write(address, 0x0101_0101 * (17 * strobes + 3), strobes));
+            events.push(write(address, 0x0101_0101_u32.wrapping_mul(17 * strobes + 3), strobes));
             events.push(read(address));
         }
         // One after the other, so that answers and the next writes meet.

@@ -1,132 +1,16 @@
-//! Test benches and vector files, from one table of what is compared.
+//! Test benches and vector files, from the tables of what is compared.
 
 use super::Source;
+use super::compared::{STAGES, TAP_BITS, channels, unwraps, vectors};
 use super::control::Counters;
 use super::golden::{Golden, GoldenAccess, StimulusWord};
 use super::text::{banner, finished};
 use super::top::{result_bits, result_fields};
 use crate::artifact::Artifact;
-use crate::model::{NextFrame, PixelRecord, next_frame};
-use crate::spec::{Pipeline, Word};
+use crate::model::{NextFrame, next_frame};
+use crate::spec::Pipeline;
 use askama::Template;
 use std::fmt::Write;
-
-/// A value of every pixel, in a file of golden values.
-pub struct Vector {
-    /// Name of the file, and of the value.
-    pub name: &'static str,
-    word: fn(&Pipeline) -> Word,
-    value: fn(&PixelRecord) -> i64,
-}
-
-/// All vectors.
-pub const VECTORS: &[Vector] = &[
-    Vector { name: "in_phase", word: |p| p.derived().in_phase, value: |r| r.sums.in_phase },
-    Vector { name: "quadrature", word: |p| p.derived().quadrature, value: |r| r.sums.quadrature },
-    Vector { name: "offset_sum", word: |p| p.derived().offset_sum, value: |r| r.sums.offset },
-    Vector { name: "saturated", word: |_| Word::unsigned(1), value: |r| r.sums.saturated.into() },
-    Vector { name: "phase", word: |p| p.derived().phase, value: |r| r.phase },
-    Vector { name: "amplitude", word: |p| p.derived().amplitude, value: |r| r.amplitude },
-    Vector { name: "offset", word: |p| p.derived().offset, value: |r| r.offset },
-    Vector { name: "distance", word: |p| p.derived().distance, value: |r| r.distance },
-    Vector { name: "usable", word: |_| Word::unsigned(1), value: |r| r.valid.into() },
-];
-
-/// A place in the core where every pixel of every set passes once.
-pub struct Stage {
-    /// Its name in messages.
-    pub name: &'static str,
-    /// When a pixel passes: a Verilog expression over the core's wires.
-    strobe: &'static str,
-    /// What is compared there: the vector, and the wire that carries it. An empty wire: a field of the result word.
-    probes: &'static [(&'static str, &'static str)],
-}
-
-/// All stages, in the order in which a pixel meets them.
-pub const STAGES: &[Stage] = &[
-    Stage {
-        name: "accumulator",
-        strobe: "dut.sums_valid && dut.sums_taken",
-        probes: &[
-            ("in_phase", "dut.sums_in_phase"),
-            ("quadrature", "dut.sums_quadrature"),
-            ("offset_sum", "dut.sums_offset"),
-            ("saturated", "dut.sums_saturated"),
-        ],
-    },
-    Stage {
-        name: "angle",
-        strobe: "dut.angle_valid && dut.advance",
-        probes: &[("phase", "dut.angle_phase")],
-    },
-    Stage {
-        name: "results",
-        strobe: "dut.result_valid && dut.advance",
-        probes: &[
-            ("amplitude", "dut.result_amplitude"),
-            ("offset", "dut.result_offset"),
-            ("distance", "dut.result_distance"),
-            ("usable", "dut.result_usable"),
-        ],
-    },
-    Stage {
-        name: "output",
-        strobe: "m_axis_tvalid && m_axis_tready",
-        probes: &[
-            ("phase", ""),
-            ("amplitude", ""),
-            ("offset", ""),
-            ("distance", ""),
-            ("usable", ""),
-            ("saturated", ""),
-        ],
-    },
-];
-
-/// A value compared at a stage.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Channel {
-    /// `stage.vector`.
-    pub name: String,
-    /// Index into [`STAGES`].
-    pub stage: usize,
-    /// Name of the vector.
-    pub vector: &'static str,
-    /// Its word.
-    pub word: Word,
-    /// Its wire.
-    probe: String,
-    /// Its lowest bit among the taps' values.
-    low: usize,
-}
-
-/// Bits that the taps give each channel.
-const TAP_BITS: usize = 64;
-
-/// Every channel of `pipeline`'s benches.
-pub fn channels(pipeline: &Pipeline) -> Vec<Channel> {
-    let fields = result_fields(pipeline);
-    let mut channels = Vec::new();
-    for (stage, Stage { name, probes, .. }) in STAGES.iter().enumerate() {
-        for &(vector, wire) in *probes {
-            let field = fields.iter().find(|field| field.name == vector);
-            let probe = match (wire, field) {
-                ("", Some(field)) => format!("m_axis_tdata[{} +: {}]", field.low, field.bits),
-                _ => wire.to_owned(),
-            };
-            let word = VECTORS.iter().find(|row| row.name == vector).map(|row| (row.word)(pipeline));
-            channels.push(Channel {
-                name: format!("{name}.{vector}"),
-                stage,
-                vector,
-                word: word.expect("every probe names a vector"),
-                probe,
-                low: channels.len() * TAP_BITS,
-            });
-        }
-    }
-    channels
-}
 
 /// A vector, as the bench's template takes it.
 struct VectorRow {
@@ -181,6 +65,9 @@ struct Bench {
     pixels: usize,
     width: usize,
     silence: u32,
+    /// Bits of `s_axis_tuser`, and of a line of the stimulus.
+    user_bits: u32,
+    stimulus_bits: u32,
     sample_bus: u32,
     result_bits: u32,
     padding: String,
@@ -230,7 +117,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
                     name: channel.name.clone(),
                     stage: channel.stage,
                     vector: channel.vector,
-                    vector_number: VECTORS.iter().position(|row| row.name == channel.vector).unwrap_or(0),
+                    vector_number: vectors(pipeline).position(|row| row.name == channel.vector).unwrap_or(0),
                     bits: channel.word.bits,
                     spare_bits: TAP_BITS as u32 - channel.word.bits,
                     probe: channel.probe.clone(),
@@ -239,8 +126,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
                 .collect(),
         })
         .collect();
-    let vectors = VECTORS
-        .iter()
+    let vectors = vectors(pipeline)
         .map(|vector| {
             let word = (vector.word)(pipeline);
             VectorRow { name: vector.name, bits: word.bits }
@@ -274,10 +160,17 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
         pixels: pipeline.geometry().pixels(),
         width: pipeline.sensor.width,
         silence: pipeline.sensor.line_blanking_clocks,
+        user_bits: if unwraps(pipeline) { 3 } else { 2 },
+        stimulus_bits: stimulus_bits(pipeline),
         sample_bus: pipeline.derived().sample.bits.next_multiple_of(8),
         result_bits: result_bits(pipeline),
         padding: padding(pipeline),
     }
+}
+
+/// Bits of a line of the stimulus: one more where a set has one of two frequencies.
+fn stimulus_bits(pipeline: &Pipeline) -> u32 {
+    if unwraps(pipeline) { 21 } else { 20 }
 }
 
 /// `{first of a set, phase step, its phase}`, as the benches have it.
@@ -329,14 +222,14 @@ fn padded(values: impl Iterator<Item = u64>, count: usize) -> impl Iterator<Item
 pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let pipeline = source.pipeline;
     let note = |what: String| format!("Generated by `vuris generate --spec {}`: {what}", source.spec);
-    let stimulus_note = note(
-        "{operation, end of line, start of set, start of frame, code[15:0]}; 9nnnn a pause of n clocks, a0000 reset, b0000 rest, c0000 access"
-            .to_owned(),
-    );
+    let frequency = if unwraps(pipeline) { "second frequency, " } else { "" };
+    let stimulus_note = note(format!(
+        "{{{frequency}operation, end of line, start of set, start of frame, code[15:0]}}; 9nnnn a pause of n clocks, a0000 reset, b0000 rest, c0000 access"
+    ));
     let stimulus = golden.stimulus.iter().map(|&StimulusWord(word)| u64::from(word));
     let epochs = golden.epochs.iter().flat_map(|epoch| [epoch.records as u64, epoch.announcements as u64]);
     let mut artifacts = vec![
-        Artifact::new("vectors/stimulus.hex", hex(&stimulus_note, 20, stimulus)),
+        Artifact::new("vectors/stimulus.hex", hex(&stimulus_note, stimulus_bits(pipeline), stimulus)),
         Artifact::new(
             "vectors/epochs.hex",
             hex(
@@ -371,7 +264,7 @@ pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
         artifacts
             .push(Artifact::new("vectors/accesses.hex", hex(&note, 32, padded(words, GoldenAccess::WORDS))));
     }
-    for vector in VECTORS {
+    for vector in vectors(pipeline) {
         let word = (vector.word)(pipeline);
         let kind = if word.signed { "signed" } else { "unsigned" };
         let text = hex(

@@ -2,8 +2,10 @@
 //!
 //! One template a module, in `hdl-templates/`; values arrive there finished.
 
+mod accumulator;
 mod angle;
 mod bench;
+mod compared;
 mod control;
 mod golden;
 mod polar;
@@ -13,9 +15,11 @@ mod rom;
 mod sequencer;
 mod text;
 mod top;
+mod unwrapping;
 
 pub use angle::{AngleSource, angle_core_artifacts, angle_stimulus};
-pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
+pub use bench::{bench_artifacts, vector_artifacts};
+pub use compared::{Channel, STAGES, VECTORS, channels};
 pub use golden::{Epoch, Golden, GoldenAccess, Rest, Scenario, Segment, StimulusWord};
 pub use top::{ResultField, result_bits, result_fields};
 
@@ -77,13 +81,13 @@ const MODULES: &[Module] = &[
         noun: "sum_memory",
         purpose: "The sums of all pixels.",
         belongs: always,
-        render: control::sum_memory,
+        render: accumulator::sum_memory,
     },
     Module {
         noun: "accumulator",
         purpose: "In-phase, quadrature and offset sums of every pixel, added while frames arrive.",
         belongs: always,
-        render: control::accumulator,
+        render: accumulator::accumulator,
     },
     Module {
         noun: "amplitude",
@@ -92,6 +96,12 @@ const MODULES: &[Module] = &[
         render: polar::amplitude,
     },
     Module { noun: "offset", purpose: "The offset of a pixel.", belongs: always, render: polar::offset },
+    Module {
+        noun: "unwrapping",
+        purpose: "The phases of two modulation frequencies combined to one over a longer range.",
+        belongs: |pipeline| pipeline.derived().unwrapper.is_some(),
+        render: unwrapping::unwrapping,
+    },
     Module {
         noun: "distance",
         purpose: "The distance of a phase.",
@@ -106,9 +116,11 @@ const MODULES: &[Module] = &[
     },
 ];
 
-/// What travels beside a pixel's vector through the angle unit: first, last, saturated and the offset sum.
+/// What travels beside a pixel's vector through the angle unit: first, last, saturated and the offset sum; where the pipeline
+/// unwraps, also the set's frequency and whether it has a partner.
 fn beside_bits(pipeline: &Pipeline) -> u32 {
-    3 + pipeline.derived().offset_sum.bits
+    let unwrapping_bits = if pipeline.derived().unwrapper.is_some() { 2 } else { 0 };
+    unwrapping_bits + 3 + pipeline.derived().offset_sum.bits
 }
 
 /// The modules below the top of `pipeline`: noun and purpose, in the order in which they are listed.

@@ -1,7 +1,7 @@
 //! Template context of the register block, and its map for software: C header, Rust constants, documentation.
 
 use super::Source;
-use super::text::literal;
+use super::text::{counter_bits, literal};
 use crate::artifact::Artifact;
 use crate::spec::{ADDRESS_BITS, Content, Counter, REGISTER_BYTES, REGISTERS, Register};
 use askama::Template;
@@ -38,7 +38,12 @@ struct RegisterBlock {
     address_bits: u32,
     /// The comment's table.
     rows: Vec<String>,
-    registers: Vec<Row>,
+    /// Bits of a register's number.
+    word_bits: u32,
+    constants: Vec<Row>,
+    variables: Vec<Row>,
+    /// Case labels of the numbers beyond the last register.
+    missing: Vec<String>,
     settings: Vec<Row>,
 }
 
@@ -57,9 +62,10 @@ fn hexadecimal(value: u32) -> String {
 }
 
 pub(super) fn registers(source: &Source, banner: String) -> askama::Result<String> {
-    let row = |(address, register): (u32, &'static Register)| Row {
+    let word_bits = counter_bits(REGISTERS.len() - 1);
+    let row = |bits: u32, (address, register): (u32, &'static Register)| Row {
         name: register.name,
-        label: literal(ADDRESS_BITS - 2, i64::from(address / REGISTER_BYTES)),
+        label: literal(bits, i64::from(address / REGISTER_BYTES)),
         value: match register.content {
             Content::Constant(value) => hexadecimal(value(source.pipeline)),
             Content::Counter(counter) => wire(counter).to_owned(),
@@ -71,6 +77,7 @@ pub(super) fn registers(source: &Source, banner: String) -> askama::Result<Strin
         },
         meaning: register.meaning,
     };
+    let constant = |(_, register): &(u32, &Register)| matches!(register.content, Content::Constant(_));
     let short = |register: &Register| if register.writable() { "rw" } else { "ro" };
     RegisterBlock {
         banner,
@@ -81,8 +88,14 @@ pub(super) fn registers(source: &Source, banner: String) -> askama::Result<Strin
                 format!("0x{address:02x}    | {:<6} | {}", short(register), register.name)
             })
             .collect(),
-        registers: map().map(row).collect(),
-        settings: map().filter(|(_, register)| register.writable()).map(row).collect(),
+        word_bits,
+        constants: map().filter(constant).map(|place| row(word_bits, place)).collect(),
+        variables: map().filter(|place| !constant(place)).map(|place| row(word_bits, place)).collect(),
+        missing: (REGISTERS.len()..1 << word_bits).map(|number| literal(word_bits, number as i64)).collect(),
+        settings: map()
+            .filter(|(_, register)| register.writable())
+            .map(|place| row(ADDRESS_BITS - 2, place))
+            .collect(),
     }
     .render()
 }

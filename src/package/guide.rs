@@ -1,12 +1,13 @@
 //! The integration guide: what an engineer needs on one page.
 
-use super::lists::{core_name, file, mark};
+use super::lists::{Packaged, file};
 use super::ports::{Direction, ports};
 use super::timing::{Timing, diagrams};
 use super::wave::Diagram;
 use crate::artifact::Artifact;
-use crate::hdl::{Source, result_bits, result_fields};
+use crate::hdl::{result_bits, result_fields};
 use crate::report::escaped;
+use crate::spec::Pipeline;
 use crate::units::unambiguous_range_m;
 use askama::Template;
 
@@ -62,8 +63,7 @@ struct Guide {
 }
 
 /// The guide's file; `resources`: the lines of a table of what synthesis has found, or none.
-pub(super) fn artifact(source: &Source, resources: &[String]) -> Artifact {
-    let pipeline = source.pipeline;
+pub(super) fn artifact(of: &Packaged, pipeline: &Pipeline, resources: &[String]) -> Artifact {
     let (derived, sensor, modulation) = (pipeline.derived(), &pipeline.sensor, &pipeline.modulation);
     let (timing, budget) = (Timing::new(pipeline), pipeline.budget());
     let bound = |relative: f64| format!("0.5 codes + {relative:.1e} of it");
@@ -90,9 +90,9 @@ pub(super) fn artifact(source: &Source, resources: &[String]) -> Artifact {
         meaning: field.meaning,
     });
     let guide = Guide {
-        mark: escaped(&mark(source)),
+        mark: escaped(&of.mark()),
         top: pipeline.top(),
-        core: core_name(source),
+        core: of.core(),
         width: sensor.width,
         height: sensor.height,
         pixels: pipeline.geometry().pixels(),

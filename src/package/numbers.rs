@@ -36,6 +36,8 @@ pub fn numbers(pipeline: &Pipeline, made_by: &str) -> String {
             "offset_gain": scheme.offset_gain(),
             "noise_factor": scheme.noise_factor(),
         },
+        "steps_in_order": pipeline.modulation.steps_in_order(),
+        "step_phase_codes": (0..scheme.steps()).map(|step| pipeline.modulation.step_phase_code(step)).collect::<Vec<_>>(),
         "frames_per_set": derived.frames_per_set,
         "ports": ports(pipeline).iter().map(|port| json!({
             "name": port.name,

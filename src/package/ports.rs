@@ -45,11 +45,11 @@ pub fn ports(pipeline: &Pipeline) -> Vec<Port> {
     let text = artifacts.iter().find(|artifact| artifact.path == top).map_or("", |artifact| &artifact.text);
     let header =
         text.lines().skip_while(|line| !line.starts_with("module ")).take_while(|line| *line != ");");
-    header.filter_map(declared).collect()
+    header.filter_map(|line| declared(pipeline, line)).collect()
 }
 
 /// The port that a line such as `  input  wire [15:0] s_axis_tdata,  // raw code` declares.
-fn declared(line: &str) -> Option<Port> {
+fn declared(pipeline: &Pipeline, line: &str) -> Option<Port> {
     let (declaration, meaning) = line.split_once("//").unwrap_or((line, ""));
     let mut words = declaration.trim().trim_end_matches(',').split_whitespace();
     let direction = match words.next()? {
@@ -63,14 +63,20 @@ fn declared(line: &str) -> Option<Port> {
     let bits = 1 + range.map_or(Ok(0), str::parse).ok()?;
     let at_reset = match direction {
         Direction::Input => None,
-        Direction::Output => value_at_reset(name),
+        Direction::Output => value_at_reset(pipeline, name),
     };
     Some(Port { name: name.to_owned(), direction, bits, meaning: meaning.trim().to_owned(), at_reset })
 }
 
-/// A stream offers nothing and takes whatever comes, a counter or flag is 0; a stream's payload has no reset.
-fn value_at_reset(name: &str) -> Option<u32> {
+/// A stream offers nothing and takes whatever comes, the first frame is due, a setting is as specified, a counter or strobe is 0;
+/// a stream's payload has no reset.
+fn value_at_reset(pipeline: &Pipeline, name: &str) -> Option<u32> {
+    let first_step = pipeline.modulation.step_at(0);
     match name {
+        "frequency_factor_o" => Some(pipeline.registers.frequency_factor),
+        "next_frame_first_o" => Some(1),
+        "next_frame_step_o" => Some(first_step as u32),
+        "next_frame_phase_o" => Some(pipeline.modulation.step_phase_code(first_step) as u32),
         _ if name.ends_with("valid") || name.ends_with("_o") => Some(0),
         _ if name.ends_with("ready") => Some(1),
         _ => None,
@@ -104,10 +110,12 @@ mod tests {
 
     #[test]
     fn what_is_not_a_port_is_none() {
+        let pipeline = Pipeline::named("vuris").unwrap();
         for line in ["module vuris_pipeline (", "", "  wire [3:0] inner;  // wire", "  // input wire a"] {
-            assert_eq!(declared(line), None, "{line}");
+            assert_eq!(declared(&pipeline, line), None, "{line}");
         }
-        let port = declared("  output wire [87:0] m_axis_tdata,      // the result, // as above").unwrap();
+        let port = declared(&pipeline, "  output wire [87:0] m_axis_tdata,      // the result, // as above")
+            .unwrap();
         assert_eq!((port.bits, port.meaning.as_str()), (88, "the result, // as above"));
         assert_eq!(port.at_reset, None);
     }

@@ -51,7 +51,7 @@ pub fn stimulus(pipeline: &Pipeline, seed: u64) -> Scenario {
     let beyond = raw.codes().iter().enumerate().map(|(number, &code)| match number % 3 {
         0 => code,
         // One bit above the converter's, and nothing else.
-        1 => (full_scale + 1 << (number % 5)).min(largest) & !full_scale,
+        1 => ((full_scale + 1) << (number % 5)).min(largest) & !full_scale,
         _ => largest - code,
     });
     let beyond = RawSets::new(raw.geometry(), raw.frames_per_set(), beyond.collect())

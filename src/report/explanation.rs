@@ -1,7 +1,9 @@
 //! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
 
 use crate::hdl::{result_bits, result_fields};
-use crate::spec::{Architecture, Pipeline, REGISTER_BYTES, REGISTERS, SchemeOrigin, StageWord, Word, exact};
+use crate::spec::{
+    Architecture, Pipeline, REGISTER_BYTES, REGISTERS, SHARE_BITS, SchemeOrigin, StageWord, Word, exact,
+};
 use crate::units::unambiguous_range_m;
 use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
@@ -39,14 +41,10 @@ fn word(word: Word) -> String {
 
 /// The tables of `pipeline`, in the order in which the data meets what they are about.
 pub fn sections(pipeline: &Pipeline) -> Vec<Section> {
-    vec![
-        input(pipeline),
-        accumulator(pipeline),
-        angle(pipeline),
-        output(pipeline),
-        registers(pipeline),
-        errors(pipeline),
-    ]
+    let mut sections = vec![input(pipeline), accumulator(pipeline), angle(pipeline), output(pipeline)];
+    sections.extend(unwrapping(pipeline));
+    sections.extend([registers(pipeline), errors(pipeline)]);
+    sections
 }
 
 /// The tables of `pipeline` as text.
@@ -123,7 +121,26 @@ fn accumulator(pipeline: &Pipeline) -> Section {
         );
     }
     section.row("saturation flag", "1 bit", "set by any frame");
-    section.row("memory word", format!("{} bits", derived.memory_word_bits), "the sums and the flag");
+    section.row(
+        "memory word",
+        format!("{} bits", derived.memory_word_bits),
+        if derived.storage.is_plain() {
+            "the sums and the flag".to_owned()
+        } else {
+            let kept: Vec<String> = derived
+                .storage
+                .sums
+                .iter()
+                .map(|sum| format!("{:?} ({} bits)", sum.weights, sum.word.bits))
+                .collect();
+            format!("sums of weights {}, from which the three follow, and the flag", kept.join(", "))
+        },
+    );
+    section.row(
+        "memory columns",
+        format!("{:?}", derived.memory_columns),
+        "bits side by side, as wide as block RAMs can be, so that few of their bits lie idle",
+    );
     section.row(
         "memory",
         format!("{} bits", derived.memory_bits),
@@ -237,13 +254,14 @@ fn output(pipeline: &Pipeline) -> Section {
             output.offset_fraction_bits
         ),
     );
+    let turns = derived.unwrapper.as_ref().map_or(1, |unwrapper| unwrapper.ratio[0]);
+    let frequency_hz = pipeline.modulation.frequency_hz / turns as f64;
     section.row(
         "distance factor",
         factor(derived.distance_factor),
         format!(
-            "{:.6} m a turn = c / (2 x {} Hz), in units of {} m",
-            unambiguous_range_m(pipeline.modulation.frequency_hz),
-            pipeline.modulation.frequency_hz,
+            "{:.6} m a turn = c / (2 x {frequency_hz} Hz), in units of {} m",
+            unambiguous_range_m(frequency_hz),
             output.distance_unit_m
         ),
     );
@@ -274,9 +292,68 @@ fn registers(pipeline: &Pipeline) -> Section {
     section
 }
 
+/// The unwrapping, where there is one.
+fn unwrapping(pipeline: &Pipeline) -> Option<Section> {
+    let unwrapper = pipeline.derived().unwrapper.as_ref()?;
+    let ([m, n], bits) = (unwrapper.ratio, unwrapper.phase_bits);
+    let frequency_hz = pipeline.modulation.frequency_hz;
+    let range_m = unambiguous_range_m(frequency_hz / m as f64);
+    let code_m = range_m / unwrapper.codes_a_turn as f64;
+    let phase_codes = pipeline.budget().phase_codes();
+    let margin = unwrapper.margin_codes();
+    let mut section = Section::new("unwrapping");
+    section.row(
+        "second frequency",
+        format!("{} MHz", frequency_hz * n as f64 / m as f64 / 1e6),
+        format!("{n}/{m} of the first, {} MHz", frequency_hz / 1e6),
+    );
+    section.row(
+        "unambiguous range",
+        format!("{range_m:.4} m"),
+        "c / (2 f0), f0 the frequencies' common divisor",
+    );
+    section.row(
+        "unwrapped phase",
+        word(unwrapper.unwrapped),
+        format!("turns of f0 / {} = {m} x {n} x 2^{bits}", unwrapper.codes_a_turn),
+    );
+    section.row(
+        "share of the second range",
+        format!("{} / 2^{SHARE_BITS}", unwrapper.share),
+        "its weight over the sum of both, rounded",
+    );
+    section.row(
+        "memory of phases",
+        format!("{} bits", (bits as usize + 1) * pipeline.geometry().pixels()),
+        format!("phase and flag, {} bits, x {} pixels", bits + 1, pipeline.geometry().pixels()),
+    );
+    section.row(
+        "margin",
+        format!("{margin:.1} codes, {:.1} mrad for noise", (margin - phase_codes) * code_mrad(pipeline)),
+        format!("2^{} / ({m} + {n}): both phases off by less have the right ambiguity number", bits - 1),
+    );
+    section.row(
+        "trusted residual",
+        format!("{} codes", unwrapper.residual_limit),
+        "residual_limit_turns; of N phase 1 - M phase 2 modulo a turn, either sign",
+    );
+    let error = unwrapper.error_codes(phase_codes);
+    section.row(
+        "worst-case error",
+        format!("{error:.3} codes = {:.2} um", error * code_m * 1e6),
+        "both phases' worst cases, weighted, and half a code of the mean",
+    );
+    Some(section)
+}
+
+/// A phase code in mrad.
+fn code_mrad(pipeline: &Pipeline) -> f64 {
+    1e3 * TAU / f64::from(pipeline.output.phase_bits).exp2()
+}
+
 fn errors(pipeline: &Pipeline) -> Section {
     let budget = pipeline.budget();
-    let code_mrad = 1e3 * TAU / f64::from(pipeline.output.phase_bits).exp2();
+    let code_mrad = code_mrad(pipeline);
     let mut section = Section::new("worst-case error");
     for contribution in &budget.phase {
         section.row(

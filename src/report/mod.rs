@@ -4,6 +4,7 @@ mod colour_map;
 mod error_maps;
 mod explanation;
 mod pixel_image;
+mod resources;
 mod scale;
 mod svg;
 mod sweep;
@@ -12,6 +13,7 @@ mod synthesis;
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
 pub use explanation::{Section, explanation, sections};
+pub use resources::resources;
 pub use svg::escaped;
 pub use sweep::{
     Column, Values, front_table, octave_table, sweep_columns, sweep_csv, sweep_parquet, sweep_picture,

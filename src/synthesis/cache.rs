@@ -1,6 +1,6 @@
 //! What has been measured once, by the content of everything that it depends on.
 
-use super::design::digest;
+use super::verilog::digest;
 use crate::problem::{Problem, Result};
 use serde::Serialize;
 use serde::de::DeserializeOwned;

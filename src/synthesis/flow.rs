@@ -2,10 +2,10 @@
 
 use super::area::Area;
 use super::cache::Cache;
-use super::design::Design;
 use super::family::Family;
 use super::routing::{Routed, Routing, does_not_fit};
 use super::tools::{Program, above, complaint};
+use super::verilog::Verilog;
 use super::wrapper::{Port, WRAPPER, ports, wrapper};
 use crate::artifact::{self, Artifact};
 use crate::problem::{Problem, Result};
@@ -65,60 +65,60 @@ impl Flow {
     }
 
     /// What `design` takes of `family`: the bare design, without a wrapper, as Yosys maps it by default.
-    pub fn area(&self, design: &Design, family: Family) -> Result<Area> {
-        let command = format!("{} -top {}", family.synthesis_command(), design.top());
-        let inputs = ["area 1", self.yosys.version(), &command, &design.digest()];
+    pub fn area(&self, verilog: &Verilog, family: Family) -> Result<Area> {
+        let command = format!("{} -top {}", family.synthesis_command(), verilog.top());
+        let inputs = ["area 1", self.yosys.version(), &command, &verilog.digest()];
         self.cache.recall_or(&inputs, || {
-            let folder = folder_with(design.files())?;
-            let script = format!("{}{command}; tee -q -o cells.json stat -json", design.reading());
-            Area::parse(&self.synthesise(&script, design, folder.path(), "cells.json")?, family)
+            let folder = folder_with(verilog.files())?;
+            let script = format!("{}{command}; tee -q -o cells.json stat -json", verilog.reading());
+            Area::parse(&self.synthesise(&script, verilog, folder.path(), "cells.json")?, family)
         })
     }
 
     /// The ports of `design`, its parameters at their defaults.
-    pub fn ports(&self, design: &Design) -> Result<Vec<Port>> {
-        let inputs = ["ports 1", self.yosys.version(), &design.digest()];
+    pub fn ports(&self, verilog: &Verilog) -> Result<Vec<Port>> {
+        let inputs = ["ports 1", self.yosys.version(), &verilog.digest()];
         self.cache.recall_or(&inputs, || {
-            let folder = folder_with(design.files())?;
-            let top = design.top();
-            let script = format!("{}hierarchy -top {top}; proc; write_json ports.json", design.reading());
-            ports(&self.synthesise(&script, design, folder.path(), "ports.json")?, top)
+            let folder = folder_with(verilog.files())?;
+            let top = verilog.top();
+            let script = format!("{}hierarchy -top {top}; proc; write_json ports.json", verilog.reading());
+            ports(&self.synthesise(&script, verilog, folder.path(), "ports.json")?, top)
         })
     }
 
     /// Prepares to place `design` with any of `seeds`, inside its wrapper.
-    pub fn placement(&self, design: &Design, family: Family, seeds: &[u32]) -> Result<Placement<'_>> {
-        let wrapper = wrapper(design, &self.ports(design)?)?;
+    pub fn placement(&self, verilog: &Verilog, family: Family, seeds: &[u32]) -> Result<Placement<'_>> {
+        let wrapper = wrapper(verilog, &self.ports(verilog)?)?;
         let mut inputs = vec!["routing 1".to_owned(), self.yosys.version().to_owned()];
         inputs.push(self.nextpnr(family)?.version().to_owned());
-        inputs.extend([design.digest(), wrapper.clone(), options(family, 0).join(" ")]);
+        inputs.extend([verilog.digest(), wrapper.clone(), options(family, 0).join(" ")]);
         inputs.extend([family.synthesis_command(), family.before_placement()].map(str::to_owned));
         let inputs = inputs.join("\n");
         let mut placement = Placement { flow: self, family, inputs, netlist: None };
         if seeds.iter().any(|&seed| placement.recalled(seed).is_none()) {
-            let mut files = design.files().to_vec();
+            let mut files = verilog.files().to_vec();
             let name = format!("{WRAPPER}.v");
             files.push(Artifact::new(&name, wrapper));
             let folder = folder_with(&files)?;
             let script = format!(
                 "{}read_verilog {name}; {} -top {WRAPPER}; {}write_json {NETLIST}",
-                design.reading(),
+                verilog.reading(),
                 family.synthesis_command(),
                 family.before_placement()
             );
-            self.synthesise(&script, design, folder.path(), NETLIST)?;
+            self.synthesise(&script, verilog, folder.path(), NETLIST)?;
             placement.netlist = Some(folder);
         }
         Ok(placement)
     }
 
     /// Runs `script` in `folder`; the text of the file `result` that it writes.
-    fn synthesise(&self, script: &str, design: &Design, folder: &Path, result: &str) -> Result<String> {
+    fn synthesise(&self, script: &str, verilog: &Verilog, folder: &Path, result: &str) -> Result<String> {
         let arguments = ["-q", "-p", script].map(str::to_owned);
         let (success, said) = self.yosys.run(folder, &arguments)?;
         if !success {
             return Err(Problem::at(
-                design.top(),
+                verilog.top(),
                 format_args!("{} fails:\n{}", self.yosys.version(), complaint(&said)),
             )
             .expected("Verilog that Yosys reads, and the files of all its modules"));

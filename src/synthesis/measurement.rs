@@ -79,7 +79,7 @@ impl Speed {
 
 /// What to measure, and with how much effort.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Plan {
+pub struct Effort {
     /// On which families.
     pub families: Vec<Family>,
     /// With which seeds.
@@ -88,7 +88,7 @@ pub struct Plan {
     pub jobs: usize,
 }
 
-impl Plan {
+impl Effort {
     /// How often `measure` reports a step for `targets` targets.
     pub fn steps(&self, targets: usize) -> usize {
         targets * self.families.len() * (1 + self.seeds.len())
@@ -99,26 +99,28 @@ impl Plan {
 pub fn measure(
     flow: &Flow,
     targets: &[Target],
-    plan: &Plan,
+    effort: &Effort,
     step: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<Measured>> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(plan.jobs).build().map_err(|error| {
-        Problem::at("--jobs", format_args!("{} threads: {error}", plan.jobs)).remedy("use fewer")
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(effort.jobs).build().map_err(|error| {
+        Problem::at("--jobs", format_args!("{} threads: {error}", effort.jobs)).remedy("use fewer")
     })?;
     // The tools are started once before they run side by side: those of PyPI are compiled by their first call.
-    for &family in &plan.families {
+    for &family in &effort.families {
         flow.nextpnr(family)?;
     }
-    let pairs: Vec<(&Target, Family)> =
-        targets.iter().flat_map(|target| plan.families.iter().map(move |&family| (target, family))).collect();
+    let pairs: Vec<(&Target, Family)> = targets
+        .iter()
+        .flat_map(|target| effort.families.iter().map(move |&family| (target, family)))
+        .collect();
     let results = pool.install(|| {
         let prepared: Result<Vec<Prepared>> = pairs
             .par_iter()
-            .map(|&(target, family)| Prepared::new(flow, target, family, plan, step))
+            .map(|&(target, family)| Prepared::new(flow, target, family, effort, step))
             .collect();
         let prepared = prepared?;
         let routes: Vec<(&Prepared, u32)> =
-            prepared.iter().flat_map(|pair| plan.seeds.iter().map(move |&seed| (pair, seed))).collect();
+            prepared.iter().flat_map(|pair| effort.seeds.iter().map(move |&seed| (pair, seed))).collect();
         let routings: Result<Vec<Routing>> =
             routes.par_iter().map(|(pair, seed)| pair.route(*seed, step)).collect();
         let mut routings = routings?.into_iter();
@@ -126,7 +128,7 @@ pub fn measure(
             family: pair.family,
             area: pair.area,
             accepted: pair.area,
-            speed: Speed::of(routings.by_ref().take(plan.seeds.len()).collect()),
+            speed: Speed::of(routings.by_ref().take(effort.seeds.len()).collect()),
         });
         Ok(mapped.collect::<Vec<_>>())
     });
@@ -135,11 +137,11 @@ pub fn measure(
         name: target.name.clone(),
         purpose: target.purpose.clone(),
         kind: target.kind,
-        digest: target.design.digest(),
+        digest: target.verilog.digest(),
         latency_clocks: target.latency_clocks,
         clocks_per_sample: target.clocks_per_sample,
         accuracy: target.accuracy.clone(),
-        results: results.by_ref().take(plan.families.len()).collect(),
+        results: results.by_ref().take(effort.families.len()).collect(),
     });
     Ok(measured.collect())
 }
@@ -157,13 +159,13 @@ impl<'a> Prepared<'a> {
         flow: &'a Flow,
         target: &Target,
         family: Family,
-        plan: &Plan,
+        effort: &Effort,
         step: &(dyn Fn(&str) + Sync),
     ) -> Result<Self> {
-        let area = flow.area(&target.design, family)?;
+        let area = flow.area(&target.verilog, family)?;
         let placement = match area.excess(family) {
             Some(excess) => Err(format!("{excess} of {}", family.part())),
-            None => Ok(flow.placement(&target.design, family, &plan.seeds)?),
+            None => Ok(flow.placement(&target.verilog, family, &effort.seeds)?),
         };
         let name = format!("{} on {}", target.name, family.name());
         step(&format!("{name}: synthesised"));

@@ -1,10 +1,11 @@
 //! What `vuris synth` measures: the presets' whole pipelines, and bare cores.
 
 use super::accuracy::Accuracy;
-use super::design::Design;
-use crate::hdl::{Source, rtl_artifacts};
+use super::verilog::Verilog;
+use crate::artifact::Artifact;
+use crate::hdl::{AngleSource, Source, angle_artifacts, rtl_artifacts};
 use crate::problem::Result;
-use crate::spec::{PRESETS, Pipeline};
+use crate::spec::{ANGLE_PRESETS, AngleCore, Architecture, Design, PRESETS, Pipeline};
 use serde::{Deserialize, Serialize};
 
 /// A design with a name, and what is known of it without synthesis.
@@ -17,7 +18,7 @@ pub struct Target {
     /// What it is compared with.
     pub kind: Kind,
     /// The Verilog.
-    pub design: Design,
+    pub verilog: Verilog,
     /// Clocks from an input that is taken to its result, from the specification.
     pub latency_clocks: Option<u32>,
     /// Clocks from one input to the next, from the specification.
@@ -49,7 +50,7 @@ impl Target {
     /// The whole pipeline of `pipeline`, generated as `spec`.
     pub fn of_pipeline(pipeline: &Pipeline, spec: &str) -> Result<Self> {
         let artifacts = rtl_artifacts(&Source { pipeline, spec });
-        let verilog = artifacts.into_iter().filter(|artifact| artifact.path.ends_with(".v")).collect();
+        let verilog = verilog_of(artifacts);
         let (sensor, scheme) = (&pipeline.sensor, &pipeline.modulation.scheme.name);
         Ok(Self {
             name: pipeline.name.clone(),
@@ -58,17 +59,56 @@ impl Target {
                 sensor.width, sensor.height, sensor.adc_bits
             ),
             kind: Kind::Pipeline,
-            design: Design::new(&pipeline.top(), "clk_i", verilog)?,
+            verilog: Verilog::new(&pipeline.top(), "clk_i", verilog)?,
             latency_clocks: Some(pipeline.derived().latency_clocks),
-            clocks_per_sample: Some(1),
+            clocks_per_sample: Some(pipeline.derived().angle.clocks_a_vector(0)),
             accuracy: None,
         })
     }
 
-    /// The table: all presets' pipelines.
-    pub fn all() -> Result<Vec<Self>> {
-        PRESETS.iter().map(|preset| Self::of_pipeline(&Pipeline::named(preset.name)?, preset.name)).collect()
+    /// The bare angle unit of `core`, generated as `spec`, with one bit that travels beside the vector: the least.
+    pub fn of_angle(core: &AngleCore, spec: &str) -> Result<Self> {
+        let unit = &core.unit;
+        let source = AngleSource { prefix: &core.prefix(), unit, meta_bits: 1 };
+        let form = match unit.architecture {
+            Architecture::Unrolled => "unrolled",
+            Architecture::Folded { .. } => "folded",
+            Architecture::Iterative => "iterative",
+            Architecture::Tables => "tables and multipliers",
+        };
+        Ok(Self {
+            name: core.name.clone(),
+            purpose: format!("angle core, {form}"),
+            kind: Kind::AngleCore {
+                input_bits: unit.x_bits.max(unit.y_bits),
+                phase_bits: unit.phase_bits,
+                amplitude: unit.with_length(),
+            },
+            verilog: Verilog::new(&core.top(), "clk_i", verilog_of(angle_artifacts(&source, spec)))?,
+            latency_clocks: Some(unit.latency_clocks()),
+            clocks_per_sample: Some(unit.clocks_a_vector(0)),
+            accuracy: None,
+        })
     }
+
+    /// What the preset or TOML file `name` specifies, generated as `spec`.
+    pub fn named(name: &str, spec: &str) -> Result<Self> {
+        match Design::named(name)? {
+            Design::Pipeline(pipeline) => Self::of_pipeline(&pipeline, spec),
+            Design::Angle(core) => Self::of_angle(&core, spec),
+        }
+    }
+
+    /// The table: all presets, pipelines and bare angle cores.
+    pub fn all() -> Result<Vec<Self>> {
+        PRESETS.iter().chain(ANGLE_PRESETS).map(|preset| Self::named(preset.name, preset.name)).collect()
+    }
+}
+
+/// Of generated files, the Verilog of the core; benches are none of it.
+fn verilog_of(artifacts: Vec<Artifact>) -> Vec<Artifact> {
+    let is_core = |artifact: &Artifact| artifact.path.starts_with("rtl/") && artifact.path.ends_with(".v");
+    artifacts.into_iter().filter(is_core).collect()
 }
 
 #[cfg(test)]

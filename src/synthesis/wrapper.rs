@@ -5,7 +5,7 @@
 //! register of its own, and those are folded by parity, four a stage, into one pin. Nothing of the design can be removed, and
 //! the only long paths from register to register are its own.
 
-use super::design::Design;
+use super::verilog::Verilog;
 use crate::problem::{Problem, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -69,8 +69,8 @@ const FOLD: usize = 4;
 pub(super) const WRAPPER: &str = "vuris_register_wrapper";
 
 /// The wrapper of `design`, which has `ports`: Verilog-2005, the module `vuris_register_wrapper`.
-pub fn wrapper(design: &Design, ports: &[Port]) -> Result<String> {
-    let (clock, top) = (design.clock(), design.top());
+pub fn wrapper(verilog: &Verilog, ports: &[Port]) -> Result<String> {
+    let (clock, top) = (verilog.clock(), verilog.top());
     if !ports.iter().any(|port| port.name == clock && !port.output && port.bits == 1) {
         let names: Vec<&str> = ports.iter().map(|port| port.name.as_str()).collect();
         return Err(Problem::at(top, format_args!("has no clock input {clock}"))
@@ -131,14 +131,14 @@ mod tests {
             "a": { "direction": "input", "bits": [ 3, 4, 5 ] },
             "sum": { "direction": "output", "bits": [ 6, 7, "0", "1", 8 ] } } } } }"#;
 
-    fn design(clock: &str) -> Design {
-        Design::new("top", clock, vec![Artifact::new("top.v", "")]).unwrap()
+    fn verilog(clock: &str) -> Verilog {
+        Verilog::new("top", clock, vec![Artifact::new("top.v", "")]).unwrap()
     }
 
     #[test]
     fn every_bit_of_every_port_is_connected_once() {
         let ports = ports(NETLIST, "top").unwrap();
-        let text = wrapper(&design("clk_i"), &ports).unwrap();
+        let text = wrapper(&verilog("clk_i"), &ports).unwrap();
         for line in [
             "(* keep *) reg [2:0] inputs;",
             "always @(posedge clk) inputs <= {inputs[1:0], serial_i};",
@@ -157,12 +157,12 @@ mod tests {
     #[test]
     fn what_cannot_be_wrapped_is_refused() {
         let all = ports(NETLIST, "top").unwrap();
-        let said = wrapper(&design("clock"), &all).unwrap_err().to_string();
+        let said = wrapper(&verilog("clock"), &all).unwrap_err().to_string();
         assert!(said.contains("has no clock input clock") && said.contains("a, clk_i, sum"), "{said}");
-        assert!(wrapper(&design("a"), &all).is_err(), "a clock of three bits");
-        assert!(wrapper(&design("sum"), &all).is_err(), "a clock that is an output");
+        assert!(wrapper(&verilog("a"), &all).is_err(), "a clock of three bits");
+        assert!(wrapper(&verilog("sum"), &all).is_err(), "a clock that is an output");
         let no_output: Vec<Port> = all.into_iter().filter(|port| !port.output).collect();
-        assert!(wrapper(&design("clk_i"), &no_output).is_err());
+        assert!(wrapper(&verilog("clk_i"), &no_output).is_err());
         assert!(ports(NETLIST, "other").is_err() && ports("", "top").is_err());
         let both_ways = NETLIST.replacen("output", "inout", 1);
         assert!(ports(&both_ways, "top").unwrap_err().to_string().contains("is inout"));

@@ -60,10 +60,14 @@ class Core:
         covered = sum((1 << field["bits"]) - 1 << field["low"] for field in self.fields.values())
         return [word & ~covered for word in words]
 
+    def of_frames(self, steps):
+        """What every raw frame of a set has, in the order in which they come, of what every step has."""
+        return np.repeat(np.array(steps)[self.numbers["steps_in_order"]], self.repeats)
+
     def truth(self, codes):
         """The results of one set's codes, [raw frame, pixel]."""
         scheme = self.numbers["scheme"]
-        weights = {name: np.repeat(scheme[name], self.repeats) for name in ("in_phase", "quadrature", "offset")}
+        weights = {name: self.of_frames(scheme[name]) for name in ("in_phase", "quadrature", "offset")}
         dn = np.minimum(codes, self.full_scale).astype(float)
         x, q = weights["in_phase"] @ dn, weights["quadrature"] @ dn
         y = np.sqrt(scheme["quadrature_factor_squared"]) * q
@@ -80,7 +84,7 @@ class Core:
     def frames_of(self, turns, amplitude_dn, offset_dn):
         """Raw frames of a scene, [raw frame, pixel], as the scheme steps the phase; not noisy, rounded to codes."""
         angles = np.array([numerator / denominator for numerator, denominator in self.numbers["scheme"]["angles_turns"]])
-        step = np.repeat(angles, self.repeats)[:, None]
+        step = self.of_frames(angles)[:, None]
         dn = amplitude_dn * np.cos(2 * np.pi * (step - turns)) + offset_dn
         return np.clip(np.rint(dn), 0, self.full_scale).astype(np.int64)
 
@@ -88,7 +92,7 @@ class Core:
         """Codes, [raw frame, pixel], of the longest vector that there is, which need not be shifted up: its timing is the diagrams'."""
         scheme, words = self.numbers["scheme"], self.numbers["words"]
         name = max(("in_phase", "quadrature"), key=lambda name: words[name]["bits"])
-        weights = np.repeat(scheme[name], self.repeats)
+        weights = self.of_frames(scheme[name])
         sign = 1 if weights[weights > 0].sum() >= -weights[weights < 0].sum() else -1
         codes = np.where(weights * sign > 0, self.full_scale, 0)
         return np.repeat(codes[:, None], self.pixels, axis=1)

@@ -111,6 +111,26 @@ async def a_reset_in_the_middle_of_a_set_leaves_nothing_behind(dut):
     assert again.counters() == (1, 0)
 
 
+@cocotb.test()
+async def the_next_frames_step_is_told_before_it_begins(dut):
+    """What a modulation hardware that follows the outputs would make: every raw frame has the step that its set needs."""
+    if not any(port["name"] == "next_frame_step_o" for port in CORE.numbers["ports"]):
+        return
+    bench = Bench(dut, CORE, SEED)
+    await bench.start()
+    beats = beats_of(CORE, np.random.default_rng(SEED).integers(0, CORE.full_scale + 1, (CORE.frames, CORE.pixels)))
+    order, codes = CORE.numbers["steps_in_order"], CORE.numbers["step_phase_codes"]
+    for number in range(2 * CORE.frames):
+        frame = number % CORE.frames
+        told = [int(handle.value) for handle in (dut.next_frame_first_o, dut.next_frame_step_o, dut.next_frame_phase_o)]
+        step = order[frame // CORE.repeats]
+        assert told == [frame == 0, step, codes[step]], f"frame {number}: told {told}, step {step} is due"
+        await bench.send(beats[frame * CORE.pixels : (frame + 1) * CORE.pixels])
+        # A frame's pause, short enough not to end the set.
+        for _ in range(min(CORE.silence_clocks, 8)):
+            await bench.clock(None, True)
+
+
 def clocks_of(diagram):
     """A WaveJSON's signals in every clock that it draws or leaves out: a list of (drawn, {name: value}); what `x` hides is None."""
     signals = {lane["name"]: iter_lane(lane) for lane in diagram["signal"] if "name" in lane}

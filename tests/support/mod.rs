@@ -13,8 +13,9 @@ use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
 use vuris::spec::{
-    Cordic, Irrational, Modulation, Output, Pipeline, RegisterBlock, Rounding, Row, SCHEMES, Scheme, Sensor,
-    Specification, StepAngle, Throughput, normalised_order,
+    AngleSpecification, AngleUnit, Atan, Cordic, Irrational, Modulation, Multipliers, Output, Pipeline,
+    RegisterBlock, Rounding, Row, SCHEMES, Scheme, Sensor, Specification, StepAngle, Throughput,
+    normalised_order,
 };
 use vuris::units::unambiguous_range_m;
 
@@ -140,6 +141,48 @@ fn schemes() -> impl Strategy<Value = Scheme> {
     ]
 }
 
+/// CORDICs of every architecture.
+fn cordics() -> impl Strategy<Value = Cordic> {
+    // Every fourth one iteration a clock, the others a vector every few clocks.
+    let throughput = (0..4_u32, 1..=40_u32).prop_map(|(kind, clocks)| match kind {
+        0 => Throughput::OneIterationAClock,
+        1 => Throughput::CyclesPerPixel(1),
+        _ => Throughput::CyclesPerPixel(clocks),
+    });
+    (4..=30_u32, 0..=8_u32, 1..=8_u32, throughput, 1..=5_u32, 0..5_u32, any::<bool>()).prop_map(
+        |(iterations, vector_guard_bits, angle_guard_bits, throughput, pipeline_every, weak, truncate)| {
+            Cordic {
+                throughput,
+                pipeline_every,
+                normalise: weak > 0,
+                rounding: if truncate { Rounding::Truncate } else { Rounding::Nearest },
+                ..Cordic::new(iterations, vector_guard_bits, angle_guard_bits)
+            }
+        },
+    )
+}
+
+/// Angle units without a camera, of every kind that is accepted.
+pub fn angle_units() -> impl Strategy<Value = AngleUnit> {
+    // Every fourth without a length.
+    let words = (2..=40_u32, 2..=40_u32, any::<bool>(), 4..=24_u32, 0..=32_u32, 0..4_u32);
+    (words, cordics()).prop_map(|((x_bits, y_bits, three, phase_bits, length_bits, kind), cordic)| {
+        let specification = AngleSpecification {
+            x_bits,
+            y_bits,
+            metric: if three { 3 } else { 1 },
+            phase_bits,
+            length_bits: if kind == 0 { 0 } else { length_bits },
+            atan: Atan::Cordic,
+            cordic: Cordic {
+                iterations: cordic.iterations.min(phase_bits + cordic.vector_guard_bits),
+                ..cordic
+            },
+        };
+        AngleUnit::new("any", specification).unwrap()
+    })
+}
+
 /// Specifications of every kind that the program accepts: all its fields, with small sensors and few frames.
 pub fn specifications() -> impl Strategy<Value = Specification> {
     let sensor = (2..=8_usize, 1..=6_usize, 8..=16_u32, 0.0..1.5_f64, 16..=100_u32).prop_map(
@@ -162,26 +205,9 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
     });
     let registers = (any::<bool>(), any::<u32>())
         .prop_map(|(axi4_lite, frequency_factor)| RegisterBlock { axi4_lite, frequency_factor });
-    // Every fourth one iteration a clock, the others a vector every few clocks.
-    let throughput = (0..4_u32, 1..=40_u32).prop_map(|(kind, clocks)| match kind {
-        0 => Throughput::OneIterationAClock,
-        1 => Throughput::CyclesPerPixel(1),
-        _ => Throughput::CyclesPerPixel(clocks),
-    });
-    let cordic = (4..=30_u32, 0..=8_u32, 1..=8_u32, throughput, 1..=5_u32, 0..5_u32, any::<bool>()).prop_map(
-        |(iterations, vector_guard_bits, angle_guard_bits, throughput, pipeline_every, weak, truncate)| {
-            Cordic {
-                throughput,
-                pipeline_every,
-                normalise: weak > 0,
-                rounding: if truncate { Rounding::Truncate } else { Rounding::Nearest },
-                ..Cordic::new(iterations, vector_guard_bits, angle_guard_bits)
-            }
-        },
-    );
     // Bits of the distance, and the least amplitude as a part of the full scale (or none).
     let output = (8..=24_u32, 0..=8_u32, 0..=8_u32, 3.2..31.8_f64, -0.4..0.4_f64, 0..5_u32);
-    (sensor, modulation, cordic, output, registers)
+    (sensor, modulation, cordics(), output, registers)
         .prop_map(|(sensor, modulation, cordic, output, registers)| {
             let (
                 phase_bits,
@@ -196,6 +222,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
             let range_m = unambiguous_range_m(modulation.frequency_hz);
             let full_scale_dn = f64::from(sensor.adc_bits).exp2();
             Specification {
+                unwrapping: None,
                 name: "any".to_owned(),
                 sensor,
                 cordic: Cordic { iterations: cordic.iterations.min(most_iterations), ..cordic },
@@ -205,6 +232,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
                     amplitude_fraction_bits,
                     offset_fraction_bits,
                     distance_unit_m: range_m / distance_bits.exp2(),
+                    multipliers: if phase_bits % 2 == 0 { Multipliers::Dsp } else { Multipliers::ShiftAdd },
                     minimum_amplitude_dn: if amplitude { weakest.max(0.0) * full_scale_dn } else { 0.0 },
                 },
                 modulation,
@@ -214,10 +242,19 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
         .prop_filter("it is accepted", |specification| Pipeline::new("any", specification.clone()).is_ok())
 }
 
-/// The same `count` of them on every machine, for tools that need no other each time.
-pub fn accepted(count: usize) -> Vec<Pipeline> {
+/// The same `count` of what `strategy` gives, on every machine, for tools that need no other each time.
+fn drawn<S: Strategy>(strategy: S, count: usize) -> Vec<S::Value> {
     let mut runner = TestRunner::deterministic();
-    (0..count)
-        .map(|_| Pipeline::new("any", specifications().new_tree(&mut runner).unwrap().current()).unwrap())
-        .collect()
+    (0..count).map(|_| strategy.new_tree(&mut runner).unwrap().current()).collect()
+}
+
+/// `count` specifications of every kind.
+pub fn accepted(count: usize) -> Vec<Pipeline> {
+    let specifications = drawn(specifications(), count).into_iter();
+    specifications.map(|specification| Pipeline::new("any", specification).unwrap()).collect()
+}
+
+/// `count` angle units of every kind.
+pub fn accepted_units(count: usize) -> Vec<AngleUnit> {
+    drawn(angle_units(), count)
 }

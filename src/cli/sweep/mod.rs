@@ -1,5 +1,6 @@
 //! `vuris sweep`
 
+mod areas;
 mod journal;
 mod output;
 mod recommend;
@@ -11,7 +12,7 @@ use crate::problem::{Problem, Result};
 use crate::report::{front_table, octave_table, sweep_columns, sweep_csv, sweep_parquet, sweep_picture};
 use crate::spec::{AngleUnit, Architecture, Atan, Design, Rounding, Throughput};
 use crate::sweep::{
-    AreaModel, Configuration, ExactAngle, Figures, Grid, Plan, Point, Record, Shard, Tally, evaluate,
+    Area, AreaModel, Configuration, ExactAngle, Figures, Grid, Plan, Point, Record, Shard, Tally, evaluate,
     throughput_named,
 };
 use clap::{Args, ValueEnum};
@@ -64,6 +65,9 @@ pub(super) struct Sweep {
     /// Visit every vector of words of up to 32 bits together
     #[arg(long)]
     exhaustive: bool,
+    /// Areas by synthesis of every configuration for an ECP5, each once, instead of the fitted model
+    #[arg(long, conflicts_with_all = ["recommend", "shard"])]
+    synthesise: bool,
     /// Folder for sweep.csv, sweep.parquet, sweep.svg and the journal from which a later run goes on
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -124,13 +128,19 @@ impl Sweep {
         }
         let (tallies, effort) =
             if self.merge { self.merged(&candidates)? } else { self.measured(&candidates, Shard::WHOLE)? };
-        let point = |((configuration, unit), (plan, tally)): (&Candidate, &(Plan, Tally))| Point {
-            configuration: *configuration,
-            coverage: plan.coverage(),
-            rows: Figures::rows(tally),
-            area: AreaModel::of(unit.architecture).area(unit),
+        let areas = if self.synthesise {
+            areas::synthesised(&candidates)?
+        } else {
+            candidates.iter().map(|(_, unit)| areas::fitted(unit)).collect()
         };
-        let points: Vec<Point> = candidates.iter().zip(&tallies).map(point).collect();
+        let point =
+            |(((configuration, _), (plan, tally)), area): ((&Candidate, &(Plan, Tally)), Area)| Point {
+                configuration: *configuration,
+                coverage: plan.coverage(),
+                rows: Figures::rows(tally),
+                area,
+            };
+        let points: Vec<Point> = candidates.iter().zip(&tallies).zip(areas).map(point).collect();
         self.report(&points, frequency_hz)?;
         if effort.vectors > 0 {
             let seconds = effort.time.as_secs_f64();

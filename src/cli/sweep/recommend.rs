@@ -2,13 +2,11 @@
 
 use super::super::print::say;
 use super::super::progress;
-use super::{Candidate, Sweep, specification};
+use super::{Candidate, Sweep, areas, specification};
 use crate::physics::{Light, Sensor};
 use crate::problem::{Problem, Result};
 use crate::spec::{AngleUnit, Design};
-use crate::sweep::{
-    AreaModel, ExactAngle, Figures, Grid, Plan, Requirement, Row, SensorNoise, Shard, evaluate,
-};
+use crate::sweep::{ExactAngle, Figures, Grid, Plan, Requirement, Row, SensorNoise, Shard, evaluate};
 use crate::units::unambiguous_range_m;
 use clap::Args;
 use std::f64::consts::TAU;
@@ -98,7 +96,7 @@ impl Sweep {
     pub(super) fn recommended(&self, design: &Design) -> Result<ExitCode> {
         let frequency_hz = self.frequency_hz(design)?;
         let (requirement, words) = self.recommend.requirement(design, frequency_hz)?;
-        let area = |unit: &AngleUnit| AreaModel::of(unit.architecture).area(unit);
+        let area = areas::fitted;
         let mut candidates = self.candidates(design, &requirement)?;
         let Some(&(first, _)) = candidates.first() else { return Err(unmet(0, &words)) };
         let probe = Plan::new(&first, PROBE_SAMPLES, false);

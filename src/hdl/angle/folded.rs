@@ -1,7 +1,7 @@
 //! Template context of the folded CORDIC: a ring of stages.
 
 use super::AngleSource;
-use crate::hdl::text::{counter_bits, literal, range};
+use crate::hdl::text::{counter_bits, literal, range, slice};
 use crate::spec::{AngleUnit, Rounding, exact};
 use askama::Template;
 
@@ -17,6 +17,8 @@ struct Stage {
     part: String,
     shifts: Vec<String>,
     only_shift: String,
+    /// Bits of the part that no round looks at.
+    unused_part: String,
 }
 
 #[derive(Template)]
@@ -105,20 +107,22 @@ pub(super) fn cordic(
         let name = format!("part_{number}");
         let (part, part_bits) = growth(unit, &format!("magnitude_{number}"));
         // Twice the part, so that the bit below the last is the one that rounds.
-        let grown = |i: u32| match i {
-            0 => fitted(&format!("{{{name}, 2'd0}}"), &name, part_bits, -2, x_bits + 1),
-            _ => fitted("", &name, part_bits, 2 * i as i32 - 2, x_bits + 1),
-        };
-        let mut shifts: Vec<String> = iterations
-            .iter()
-            .enumerate()
+        let rows: Vec<(usize, String)> = (0..)
+            .zip(&iterations)
             .filter(|&(_, &i)| i <= unit.stages.x_iterations)
-            .map(|(round, &i)| {
-                format!("{}: grown_{number} = {};", literal(round_bits, round as i64), grown(i))
+            .map(|(round, &i)| (round, shifted(&name, part_bits, i, x_bits + 1)))
+            .collect();
+        let used = iterations.iter().filter(|&&i| i <= unit.stages.x_iterations);
+        let used = used.fold(0, |used, &i| used | looked_at(part_bits, i, x_bits + 1));
+        let mut shifts: Vec<String> = rows
+            .iter()
+            .map(|(round, grown)| {
+                format!("{}: grown_{number} = {grown};", literal(round_bits, *round as i64))
             })
             .collect();
         let follows = !shifts.is_empty();
-        let only_shift = if rounds == 1 { grown(iterations[0]) } else { String::new() };
+        let only_shift =
+            if rounds == 1 { rows.into_iter().map(|row| row.1).collect() } else { String::new() };
         if rounds > 1 {
             shifts.push(format!("default: grown_{number} = {};", literal(x_bits + 1, 0)));
         }
@@ -132,6 +136,7 @@ pub(super) fn cordic(
             part,
             shifts,
             only_shift,
+            unused_part: unused_bits(&name, part_bits, used),
         }
     });
     Cordic {
@@ -166,21 +171,46 @@ pub(super) fn cordic(
     .render()
 }
 
-/// `name` of `from` bits, `places` to the right, as a word of `to` bits. `whole` is the text where it goes to the left.
-fn fitted(whole: &str, name: &str, from: u32, places: i32, to: u32) -> String {
-    if places < 0 {
-        let bits = from + places.unsigned_abs();
-        return match bits.cmp(&to) {
-            std::cmp::Ordering::Less => format!("{{{}'d0, {name}, 2'd0}}", to - bits),
-            std::cmp::Ordering::Equal => whole.to_owned(),
-            std::cmp::Ordering::Greater => format!("{{{name}[{}:0], 2'd0}}", to - 3),
-        };
+/// The bits of a part that iteration `i` looks at: places to the left (2), or to the right, and how many.
+fn window(from: u32, i: u32, to: u32) -> (u32, u32, u32) {
+    match i {
+        0 => (2, 0, from.min(to - 2)),
+        _ => (0, 2 * i - 2, from.saturating_sub(2 * i - 2).min(to)),
     }
-    let places = places as u32;
-    if places >= from {
+}
+
+/// Twice the part `name` of `from` bits by iteration `i`, as a word of `to` bits: 4 or 4 / 4^i times the part.
+fn shifted(name: &str, from: u32, i: u32, to: u32) -> String {
+    let (left, low, kept) = window(from, i, to);
+    if kept == 0 {
         return format!("{to}'d0");
     }
-    let kept = (from - places).min(to);
-    let part = format!("{name}[{}:{places}]", places + kept - 1);
-    if kept == to { part } else { format!("{{{}'d0, {part}}}", to - kept) }
+    let part = if kept == from { name.to_owned() } else { format!("{name}{}", slice(low + kept - 1, low)) };
+    match (to - kept - left, left) {
+        (0, 0) => part,
+        (spare, 0) => format!("{{{spare}'d0, {part}}}"),
+        (0, _) => format!("{{{part}, {left}'d0}}"),
+        (spare, _) => format!("{{{spare}'d0, {part}, {left}'d0}}"),
+    }
+}
+
+/// The same bits as a mask.
+fn looked_at(from: u32, i: u32, to: u32) -> u64 {
+    let (_, low, kept) = window(from, i, to);
+    ((1 << kept) - 1) << low.min(63)
+}
+
+/// The bits of `name` that are not in the mask `used`, as a list of slices.
+fn unused_bits(name: &str, bits: u32, used: u64) -> String {
+    let unused = |bit: u32| used >> bit & 1 == 0;
+    let mut slices = Vec::new();
+    let mut high = None;
+    for bit in (0..bits).rev() {
+        high = high.or(unused(bit).then_some(bit));
+        if let Some(top) = high.filter(|_| unused(bit) && (bit == 0 || !unused(bit - 1))) {
+            slices.push(format!("{name}{}", slice(top, bit)));
+            high = None;
+        }
+    }
+    slices.join(", ")
 }

@@ -1,7 +1,7 @@
 //! Template context of the normaliser.
 
 use super::AngleSource;
-use crate::hdl::text::{literal, slice};
+use crate::hdl::text::{literal, range, slice};
 use askama::Template;
 
 struct Level {
@@ -34,7 +34,11 @@ struct Normaliser<'a> {
     x_raw: String,
     y_raw: String,
     first_flag: &'static str,
-    first_flag_value: String,
+    first_flag_value: &'static str,
+    /// The bits that the first shift looks at.
+    first_top: u32,
+    first_bits: u32,
+    first_range: String,
 }
 
 pub(super) fn normaliser(source: &AngleSource, banner: String) -> askama::Result<String> {
@@ -82,11 +86,10 @@ pub(super) fn normaliser(source: &AngleSource, banner: String) -> askama::Result
         x_raw: raw("x", "X_BITS", unit.x_bits),
         y_raw: raw("y", "Y_BITS", unit.y_bits),
         first_flag: if last == 0 { "zero_0" } else { "empty_1" },
-        first_flag_value: if last == 0 {
-            "~|x_i && ~|y_i".to_owned()
-        } else {
-            format!("~|(x_folded[BITS-1:{first_top}] | y_folded[BITS-1:{first_top}])")
-        },
+        first_flag_value: if last == 0 { "~|x_i && ~|y_i" } else { "~|(x_top | y_top)" },
+        first_top,
+        first_bits: bits - first_top,
+        first_range: range(bits - first_top),
         levels,
     }
     .render()

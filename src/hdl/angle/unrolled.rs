@@ -107,7 +107,7 @@ pub(super) fn cordic(source: &AngleSource, banner: String) -> askama::Result<Str
         metric: unit.metric,
         with_length: unit.with_length(),
         gain: format!("{:.9}", exact::angle_gain_f64(unit.metric, unit.stages.x_iterations)),
-        x_iterations: unit.stages.x_iterations,
+        x_iterations: unit.last_x_iteration(),
         words: table(&words),
         bits: unit.magnitude_bits,
         directions: unit.iterations + 1,
@@ -221,7 +221,7 @@ fn turn(unit: &AngleUnit, i: u32, moves: &mut Vec<Move>, live: &mut Live) {
     let (before, after) = (unit.stages.x[i as usize - 1], unit.stages.x[i as usize]);
     let (y_before, y) = (unit.stages.y[i as usize - 1], unit.stages.y[i as usize]);
     let nearest = unit.cordic.rounding == Rounding::Nearest;
-    let follows = i <= unit.stages.x_iterations;
+    let follows = i <= unit.last_x_iteration();
     let (n, b) = (live.number, live.number - 1);
     let magnitude_bits = y_before.bits - 1;
     // The model's places, less those that are no longer there.

@@ -114,8 +114,8 @@ pub const FAULTS: &[Fault] = &[
         "sums-1",
         "accumulator",
         "a sum a bit short",
-        "? {OFFSET_BITS{1'b0}} : offset_before) + offset_term_q",
-        "? {OFFSET_BITS{1'b0}} : offset_before & {1'b0, {(OFFSET_BITS-1){1'b1}}}) + offset_term_q",
+        "? {GROUP_A_BITS{1'b0}} : group_a_before) + group_a_term_q",
+        "? {GROUP_A_BITS{1'b0}} : group_a_before & {1'b0, {(GROUP_A_BITS-1){1'b1}}}) + group_a_term_q",
     ),
     fault(
         "sums-1",
@@ -128,16 +128,16 @@ pub const FAULTS: &[Fault] = &[
         "sums-1",
         "accumulator",
         "frame starts a pixel late",
-        "first_q <= drain_address_q == {(ADDRESS_BITS+1){1'b0}}",
-        "first_q <= drain_address_q == {{ADDRESS_BITS{1'b0}}, 1'b1}",
+        "read_first_q <= drain_address_q == {(ADDRESS_BITS+1){1'b0}}",
+        "read_first_q <= drain_address_q == {{ADDRESS_BITS{1'b0}}, 1'b1}",
     ),
-    fault("sums-1", "sum_memory", "sums that wait are read over", "if (read_i) read_data_q", "read_data_q"),
+    fault("sums-1", "sum_memory", "sums that wait are read over", "if (read_i) read_0_q", "read_0_q"),
     fault(
         "sums-1",
         "sum_memory",
         "lowest bit not stored",
-        "<= write_data_i;",
-        "<= {write_data_i[WORD_BITS-1:1], 1'b0};",
+        "memory_0[write_address_i] <= write_data_i[17:0];",
+        "memory_0[write_address_i] <= {write_data_i[17:1], 1'b0};",
     ),
     fault("pipeline", "stream_register", "offered word changes", "if (!valid_q || ready_i) data_q", "data_q"),
     fault(
@@ -147,7 +147,8 @@ pub const FAULTS: &[Fault] = &[
         "s_axis_tvalid && !s_axis_tready",
         "!s_axis_tready",
     ),
-    fault("folded", "other_cordic", "a direction taken the other way", "valid_i", "valid_i"),
+    fault("folded", "other_cordic", "a vector overwrites one in the ring", "advance_i && !back", "advance_i"),
+    fault("iterative", "other_angle", "a vector waits for a turn only once", "wait_valid_q <= valid_i || !ready_o;", "wait_valid_q <= valid_i;"),
     fault("pipeline", "pipeline", "a bit between the fields", "7'd0,", "7'd1,"),
 ];
 

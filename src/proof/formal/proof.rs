@@ -109,13 +109,9 @@ pub(super) fn nothing(_: &Pipeline) -> String {
     String::new()
 }
 
-/// A memory of four pixels, as the proof's accumulator has.
+/// A memory of four pixels, as the proof's accumulator has; its words are wider than the proof's, and zero there.
 fn small_memory(pipeline: &Pipeline) -> String {
-    let bits = word_bits(pipeline);
-    format!(
-        "chparam -set WORDS 4 -set ADDRESS_BITS 2 -set WORD_BITS {bits} {}_sum_memory\n",
-        pipeline.prefix()
-    )
+    format!("chparam -set WORDS 4 -set ADDRESS_BITS 2 {}_sum_memory\n", pipeline.prefix())
 }
 
 pub(super) fn define(name: &str, value: impl std::fmt::Display) -> String {
@@ -147,14 +143,19 @@ fn bits((low, high): (i64, i64)) -> u32 {
     Word::holding(low, high).bits
 }
 
-/// A pixel's three sums and its flag.
-fn word_bits(pipeline: &Pipeline) -> u32 {
-    1 + sum_bounds(pipeline).map(bits).iter().sum::<u32>()
-}
-
 fn sums(pipeline: &Pipeline, pixel: u32) -> String {
     let scheme = &pipeline.modulation.scheme;
     let [in_phase, quadrature, offset] = sum_bounds(pipeline);
+    // What is kept in place of the sums has parameters of its own.
+    let storage = &pipeline.derived().storage;
+    let scale = Word::unsigned(SAMPLE_BITS).max() * pipeline.modulation.frames_per_step as i64;
+    let own = storage.sums.iter().filter(|_| !storage.is_plain());
+    let kept: String = own
+        .map(|sum| {
+            let bits = Word::holding(0, sum.weights.iter().sum::<i64>() * scale).bits;
+            format!(" .{}_BITS({bits}),", sum.name.to_uppercase())
+        })
+        .collect();
     let steps = scheme.steps();
     let mut weights = String::new();
     for step in 0..steps {
@@ -173,6 +174,7 @@ fn sums(pipeline: &Pipeline, pixel: u32) -> String {
         define("IN_PHASE_BITS", bits(in_phase)),
         define("QUADRATURE_BITS", bits(quadrature)),
         define("OFFSET_BITS", bits(offset)),
+        define("KEPT_PARAMETERS", kept),
         define("STEPS", steps),
         define("STEP_BITS", Word::holding(0, steps as i64 - 1).bits),
         define("REPEATS", pipeline.modulation.frames_per_step),

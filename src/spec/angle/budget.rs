@@ -33,6 +33,10 @@ impl AngleBudget {
                 "fold and width of the input",
                 walk.input_rad,
                 match unit.drop_bits() {
+                    _ if walk.lost => {
+                        "not normalised: the weakest vectors are lost among the roundings, and may point anywhere"
+                            .to_owned()
+                    }
                     0 => "the one that a complement lacks".to_owned(),
                     bits => format!("{bits} bits cut off, and the one that a complement lacks"),
                 },
@@ -89,6 +93,8 @@ struct Walk {
     line_rad: f64,
     remaining_rad: f64,
     length_relative: f64,
+    /// Roundings can outweigh the weakest vector: nothing is known of its direction.
+    lost: bool,
 }
 
 impl Walk {
@@ -104,12 +110,15 @@ impl Walk {
         let (x_input, y_input) = input_units(unit);
         let mut norm = least * (1.0 + metric).sqrt();
         let input = (x_input * unit_x).hypot(root * y_input * unit_x) / norm;
+        let mut lost = input >= 1.0;
         let input_rad = input.min(1.0).asin();
         norm -= input * norm;
         // The fold leaves the angle between the axes' and iteration 0's.
         let first = root.atan();
         let mut remaining = first.max(TAU / 4.0 - first) + input_rad;
         let (mut turned_rad, mut stretched) = (0.0, input);
+        // The same without any assumption: the vector as long as it is without roundings, and every one of them along it.
+        let (mut longest_norm, mut longest) = (least * (1.0 + metric).sqrt(), input);
         let part = if unit.cordic.rounding == Rounding::Nearest { 0.5 } else { 1.0 };
         let y_unit = |i: u32| f64::from(unit.stages.y[i as usize].fraction_bits).exp2().recip();
         let y_part = if unit.stages.scaled { 0.5 } else { part };
@@ -117,14 +126,31 @@ impl Walk {
         for i in 1..=u {
             let tangent = root * f64::from(i).exp2().recip();
             norm *= (1.0 + tangent * tangent).sqrt();
+            longest_norm *= (1.0 + tangent * tangent).sqrt();
             remaining = tangent.atan().max(remaining - tangent.atan());
             let x_error = x_units(unit, i, part);
             let y_error = root * y_part * y_unit(i);
             norm -= x_error + y_error;
-            let delta = ((x_error * remaining.min(TAU / 4.0).sin() + y_error) / norm).min(1.0).asin();
+            longest += (x_error + y_error) / longest_norm;
+            let across = x_error * remaining.min(TAU / 4.0).sin() + y_error;
+            lost |= across >= norm;
+            let delta = (across / norm).clamp(0.0, 1.0).asin();
             turned_rad += delta;
             remaining += delta;
             stretched += (x_error + y_error * remaining.sin()) / norm;
+        }
+        lost |= remaining >= TAU / 4.0;
+        if lost {
+            let length_relative = 1.0 + longest;
+            let input_rad = TAU / 2.0;
+            return Self {
+                input_rad,
+                turned_rad: 0.0,
+                line_rad: 0.0,
+                remaining_rad: 0.0,
+                length_relative,
+                lost,
+            };
         }
         let x = norm * remaining.cos();
         let largest = remaining.tan();
@@ -140,7 +166,7 @@ impl Walk {
         let remaining_rad = root * f64::from(unit.iterations).exp2().recip();
         // The length's factor stands for the middle between both ends of the last angles.
         let length_relative = stretched + largest * largest / 4.0;
-        Self { input_rad, turned_rad, line_rad, remaining_rad, length_relative }
+        Self { input_rad, turned_rad, line_rad, remaining_rad, length_relative, lost }
     }
 }
 
@@ -150,7 +176,9 @@ impl Walk {
 /// bits are cut off, by less than one. See [`crate::model::turn`] for the carries.
 fn input_units(unit: &AngleUnit) -> (f64, f64) {
     let metric = unit.metric as f64;
-    let (padded, dropped) = (unit.pad_bits() > 0, unit.drop_bits() > 0);
+    // y is loaded with a bit less where it is to be doubled.
+    let padded = unit.pad_bits() > u32::from(unit.stages.scaled);
+    let dropped = unit.drop_bits() > 0;
     match (unit.stages.scaled, padded, dropped) {
         (true, true, _) => (3.0, 2.5),
         (true, false, _) => (1.0 + 2.0 * metric, 2.5),

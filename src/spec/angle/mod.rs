@@ -230,9 +230,16 @@ impl AngleUnit {
         self.length_bits > 0
     }
 
+    /// The last iteration that changes x in unrolled hardware: where no length is asked for, nobody looks at x after the
+    /// last iteration but one.
+    pub fn last_x_iteration(&self) -> u32 {
+        let needed = if self.with_length() { self.iterations - 1 } else { self.iterations - 2 };
+        self.stages.x_iterations.min(needed)
+    }
+
     /// Steps of the unrolled iterations between which a register can stand: one an iteration, one more where y is tripled first.
     pub fn moves(&self) -> u32 {
-        let tripled = if self.metric == 3 { self.stages.x_iterations + 1 } else { 0 };
+        let tripled = if self.metric == 3 { self.last_x_iteration() + 1 } else { 0 };
         self.iterations + tripled
     }
 
@@ -265,14 +272,14 @@ impl AngleUnit {
         match self.architecture {
             Architecture::Unrolled | Architecture::Tables => 1,
             Architecture::Folded { rounds, .. } => rounds,
-            Architecture::Iterative => (self.iterations + 2).max(shift + 2),
+            Architecture::Iterative => (self.iterations + 2).max(shift + 1),
         }
     }
 }
 
 /// The least hardware that meets the throughput.
 fn architecture(cordic: &Cordic, magnitude_bits: u32) -> Architecture {
-    let iterative_clocks = (cordic.iterations + 2).max(if cordic.normalise { magnitude_bits + 2 } else { 0 });
+    let iterative_clocks = (cordic.iterations + 2).max(if cordic.normalise { magnitude_bits + 1 } else { 0 });
     match cordic.throughput {
         Throughput::CyclesPerPixel(1) => Architecture::Unrolled,
         Throughput::CyclesPerPixel(clocks) if clocks < iterative_clocks => {

@@ -6,7 +6,7 @@ use sha2::{Digest, Sha256};
 
 /// Verilog to be synthesised.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Design {
+pub struct Verilog {
     top: String,
     clock: String,
     files: Vec<Artifact>,
@@ -18,7 +18,7 @@ fn is_plain(name: &str) -> bool {
         && name.chars().all(|c| c.is_ascii_alphanumeric() || "_.-".contains(c))
 }
 
-impl Design {
+impl Verilog {
     /// The module `top` with the clock input `clock`, of `files`: Verilog (`.v`), SystemVerilog (`.sv`), anything else is
     /// data that they read. Folders do not count; two files of one name, and names that a script would misread, are refused.
     pub fn new(top: &str, clock: &str, files: Vec<Artifact>) -> Result<Self> {
@@ -106,18 +106,18 @@ mod tests {
 
     #[test]
     fn the_digest_changes_with_everything_that_the_tools_read() {
-        let design = |top, clock, files: &[(&str, &str)]| {
+        let verilog = |top, clock, files: &[(&str, &str)]| {
             let files = files.iter().map(|(path, text)| file(path, text)).collect();
-            Design::new(top, clock, files).unwrap().digest()
+            Verilog::new(top, clock, files).unwrap().digest()
         };
-        let base = design("a", "clk", &[("rtl/a.v", "x"), ("rtl/b.v", "yz")]);
-        assert_eq!(base, design("a", "clk", &[("elsewhere/a.v", "x"), ("rtl/b.v", "yz")]));
+        let base = verilog("a", "clk", &[("rtl/a.v", "x"), ("rtl/b.v", "yz")]);
+        assert_eq!(base, verilog("a", "clk", &[("elsewhere/a.v", "x"), ("rtl/b.v", "yz")]));
         for other in [
-            design("b", "clk", &[("rtl/a.v", "x"), ("rtl/b.v", "yz")]),
-            design("a", "clk_i", &[("rtl/a.v", "x"), ("rtl/b.v", "yz")]),
-            design("a", "clk", &[("rtl/a.v", "xy"), ("rtl/b.v", "z")]),
-            design("a", "clk", &[("rtl/b.v", "yz"), ("rtl/a.v", "x")]),
-            design("a", "clk", &[("rtl/a.v", "x")]),
+            verilog("b", "clk", &[("rtl/a.v", "x"), ("rtl/b.v", "yz")]),
+            verilog("a", "clk_i", &[("rtl/a.v", "x"), ("rtl/b.v", "yz")]),
+            verilog("a", "clk", &[("rtl/a.v", "xy"), ("rtl/b.v", "z")]),
+            verilog("a", "clk", &[("rtl/b.v", "yz"), ("rtl/a.v", "x")]),
+            verilog("a", "clk", &[("rtl/a.v", "x")]),
         ] {
             assert_ne!(base, other);
         }
@@ -135,13 +135,13 @@ mod tests {
             ("a", "clk", "-q.v", "misread"),
             ("a", "clk", "a.hex", "without a Verilog file"),
         ] {
-            let problem = Design::new(top, clock, vec![file(path, "")]).unwrap_err().to_string();
+            let problem = Verilog::new(top, clock, vec![file(path, "")]).unwrap_err().to_string();
             assert!(problem.contains(said), "{problem}");
         }
-        let twice = Design::new("a", "clk", vec![file("x/a.v", ""), file("y/a.v", "")]);
+        let twice = Verilog::new("a", "clk", vec![file("x/a.v", ""), file("y/a.v", "")]);
         assert!(twice.unwrap_err().to_string().contains("second file named a.v"));
         let read =
-            Design::new("a", "clk", vec![file("p.sv", ""), file("a.v", ""), file("t.hex", "")]).unwrap();
+            Verilog::new("a", "clk", vec![file("p.sv", ""), file("a.v", ""), file("t.hex", "")]).unwrap();
         assert_eq!(read.reading(), "read_verilog -sv p.sv; read_verilog a.v; ");
     }
 }

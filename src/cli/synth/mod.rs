@@ -1,14 +1,16 @@
 //! `vuris synth`
 
+mod exactness;
+
 use super::generate::shown_spec;
 use super::print::{counted, say};
 use super::{agreement, progress};
 use crate::artifact::{self, Artifact, Difference};
 use crate::problem::{Problem, Result};
 use crate::report;
-use crate::spec::Pipeline;
+use crate::spec::Design;
 use crate::synthesis::{
-    Baseline, Change, Design, Family, Flow, Kind, LIMIT_PERCENT, Measured, Plan, Target, measure,
+    Baseline, Change, Effort, Family, Flow, Kind, LIMIT_PERCENT, Measured, Target, Verilog, measure,
 };
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -81,22 +83,31 @@ impl Synth {
         if self.check {
             return self.check();
         }
-        let targets = self.targets()?;
+        let mut targets = self.targets()?;
         let flow = progress::during("starting the tools", Flow::find)?;
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let plan = Plan {
+        let effort = Effort {
             families: self.family.map_or(Family::ALL.to_vec(), |family| vec![family.into()]),
             seeds: (1..=self.seeds).collect(),
             jobs: self.jobs.map_or(cores, usize::from),
         };
+        for target in &mut targets {
+            let name = self.spec.as_deref().unwrap_or(&target.name);
+            if let Kind::AngleCore { .. } = target.kind
+                && let Design::Angle(core) = Design::named(name)?
+            {
+                let what = format!("{}: errors by the model", target.name);
+                target.accuracy = Some(progress::during(what, || exactness::accuracy(&core))?);
+            }
+        }
         let measured =
-            progress::steps(plan.steps(targets.len()), |step| measure(&flow, &targets, &plan, step))?;
+            progress::steps(effort.steps(targets.len()), |step| measure(&flow, &targets, &effort, step))?;
         say!("{}", report::measured_table(&measured).trim_end());
         if self.spec.is_some() || self.top.is_some() {
             return Ok(ExitCode::SUCCESS);
         }
         let old = Baseline::read(&self.out.join(JSON))?;
-        let mut new = Baseline::new(&flow, &plan.seeds, measured)?;
+        let mut new = Baseline::new(&flow, &effort.seeds, measured)?;
         let whole = self.target.is_empty() && self.family.is_none();
         let changes = old.as_ref().map_or(Vec::new(), |old| {
             let gone = if whole { old.gone(&new.targets) } else { Vec::new() };
@@ -123,7 +134,7 @@ impl Synth {
 
     fn targets(&self) -> Result<Vec<Target>> {
         if let Some(spec) = &self.spec {
-            return Ok(vec![Target::of_pipeline(&Pipeline::named(spec)?, &shown_spec(spec))?]);
+            return Ok(vec![Target::named(spec, &shown_spec(spec))?]);
         }
         if let Some(top) = &self.top {
             return Ok(vec![foreign_target(top, &self.clock, &self.files)?]);
@@ -166,7 +177,7 @@ impl Synth {
         for target in &targets {
             match baseline.targets.iter().find(|measured| measured.name == target.name) {
                 None => stale.push(format!("{} has not been measured", target.name)),
-                Some(measured) if measured.digest != target.design.digest() => {
+                Some(measured) if measured.digest != target.verilog.digest() => {
                     stale.push(format!("{} has other Verilog than when it was measured", target.name));
                 }
                 Some(_) => {}
@@ -206,7 +217,7 @@ fn foreign_target(top: &str, clock: &str, files: &[PathBuf]) -> Result<Target> {
         name: top.to_owned(),
         purpose: format!("the module {top}"),
         kind: Kind::Other,
-        design: Design::new(top, clock, files?)?,
+        verilog: Verilog::new(top, clock, files?)?,
         latency_clocks: None,
         clocks_per_sample: None,
         accuracy: None,
