@@ -40,7 +40,7 @@ module [[ prefix ]]_amplitude #(
 
   always @(posedge clk_i) begin
     if (advance_i) begin
-      product_q   <= {{FACTOR_BITS{1'b0}}, x_i} * [[ factor ]];
+      product_q   <= [[ product ]];
       places_q    <= [[ places ]];
       zero_q      <= zero_i;
       amplitude_q <= zero_q ? {AMPLITUDE_BITS{1'b0}} : rounded;

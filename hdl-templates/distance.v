@@ -8,7 +8,7 @@
 [%- endfor %]
 `default_nettype none
 module [[ prefix ]]_distance #(
-  parameter PHASE_BITS    = [[ phase_bits ]],  // phase, in turns / 2^[[ phase_bits ]]
+  parameter PHASE_BITS    = [[ phase_bits ]],  // phase, in turns / [% if power %]2^[[ phase_bits ]][% else %][[ turn ]][% endif %]
   parameter FACTOR_SHIFT  = [[ factor_shift ]],  // fraction bits of the factor
   parameter DISTANCE_BITS = [[ distance_bits ]]   // distance, unsigned
 ) (
@@ -31,7 +31,7 @@ module [[ prefix ]]_distance #(
 
   always @(posedge clk_i) begin
     if (advance_i) begin
-      product_q  <= [[ phase ]] * [[ factor ]];
+      product_q  <= [[ product ]];
       distance_q <= product_q[PRODUCT_BITS-1:FACTOR_SHIFT] + {{(DISTANCE_BITS-1){1'b0}}, product_q[FACTOR_SHIFT-1]};
     end
   end

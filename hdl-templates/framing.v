@@ -33,9 +33,16 @@ module [[ prefix ]]_framing #(
   input  wire                    start_of_frame_i,  // first pixel of a frame
   input  wire                    start_of_set_i,    // first pixel of a set's first frame
   input  wire                    end_of_line_i,     // last pixel of a line
+[%- if unwrapping %]
+  input  wire                    second_i,          // with the start of a set: it is of the second modulation frequency
+[%- endif %]
   input  wire                    drain_busy_i,      // the last complete set still drains
   input  wire [ADDRESS_BITS:0]   drain_address_i,   // the pixel that drains next
   output wire                    drain_start_o,     // a set is complete: drain it
+[%- if unwrapping %]
+  output wire                    second_o,          // it was of the second frequency
+  output wire                    partner_o,         // the one before was of the other, and none was discarded between
+[%- endif %]
   output wire                    take_o,            // the outputs below belong to a set's pixel
   output wire [SAMPLE_BITS-1:0]  sample_o,          // raw code, DN
   output wire [ADDRESS_BITS-1:0] address_o,         // pixel number within the frame
@@ -110,6 +117,27 @@ module [[ prefix ]]_framing #(
   wire take      = accept && in_set && in_place;
   wire fault     = accept && !take && (start || state_q != LOST);
   wire abandoned = accept && start && state_q == ACTIVE;
+[%- if unwrapping %]
+
+  // Frequency of the present set, of the last complete one, and whether nothing has been discarded since.
+  reg second_q;
+  reg before_q;
+  reg unbroken_q;
+
+  assign second_o  = second_q;
+  assign partner_o = unbroken_q && before_q != second_q;
+
+  always @(posedge clk_i) begin
+    if (!rst_ni) unbroken_q <= 1'b0;
+    else if (commit) unbroken_q <= 1'b1;
+    else if (fault || abandoned) unbroken_q <= 1'b0;
+  end
+
+  always @(posedge clk_i) begin
+    if (accept && start) second_q <= second_i;
+    if (commit) before_q <= second_q;
+  end
+[%- endif %]
 
   assign ready_o          = !hold;
   assign drain_start_o    = commit;

@@ -31,7 +31,7 @@ module [[ prefix ]]_offset #(
 
   always @(posedge clk_i) begin
     if (advance_i) begin
-      product_q <= [[ sum ]] * [[ factor ]];
+      product_q <= [[ product ]];
       offset_q  <= product_q[PRODUCT_BITS-1:FACTOR_SHIFT] + {{(OFFSET_BITS-1){1'b0}}, product_q[FACTOR_SHIFT-1]};
     end
   end

@@ -1,7 +1,7 @@
 [[ banner ]]
 // The phase pipeline of a [[ width ]] x [[ height ]] time-of-flight camera: raw frames in, phase, amplitude, offset and distance out,
 // one pixel a clock. Scheme [[ scheme ]], [[ frames_per_set ]] raw frames a set; the set's results come out in pixel order once its last
-// frame has arrived whole, [[ latency ]] clocks after its sums leave the memory. It does not calibrate, filter or unwrap.
+// frame has arrived whole, [[ latency ]] clocks after its sums leave the memory. It does not calibrate[% if unwrapping %] or filter[% else %], filter or unwrap[% endif %].
 //
 //   m_axis_tdata bits | field
 [%- for field in fields %]
@@ -17,7 +17,11 @@ module [[ prefix ]]_pipeline (
   output wire        s_axis_tready,     // it is taken
   input  wire [[ sample_bus ]] s_axis_tdata,      // raw code, DN, [[ sample_bits ]] bits; a larger one counts as saturated
   input  wire        s_axis_tlast,      // last pixel of a line
+[%- if unwrapping %]
+  input  wire [2:0]  s_axis_tuser,      // {set of the second frequency (with its first pixel), first pixel of a set, first pixel of a frame}
+[%- else %]
   input  wire [1:0]  s_axis_tuser,      // {first pixel of a set, first pixel of a frame}
+[%- endif %]
   output wire        m_axis_tvalid,     // a result is offered
   input  wire        m_axis_tready,     // it is taken
   output wire [[ result_bus ]] m_axis_tdata,      // the result, fields as above
@@ -70,13 +74,16 @@ module [[ prefix ]]_pipeline (
 
   wire        raw_valid;
   wire        raw_ready;
+[%- if unwrapping %]
+  wire        raw_second;
+[%- endif %]
   wire        raw_start_of_set;
   wire        raw_start_of_frame;
   wire        raw_end_of_line;
   wire [[ sample_range ]] raw_sample;
 
   [[ prefix ]]_stream_register #(
-    .WIDTH([[ sample_bits ]] + 3)
+    .WIDTH([[ sample_bits ]] + [% if unwrapping %]4[% else %]3[% endif %])
   ) u_raw_register (
     .clk_i  (clk_i),
     .rst_ni (rst_ni),
@@ -85,10 +92,14 @@ module [[ prefix ]]_pipeline (
     .data_i ({s_axis_tuser, s_axis_tlast, sample_in}),
     .valid_o(raw_valid),
     .ready_i(raw_ready),
-    .data_o ({raw_start_of_set, raw_start_of_frame, raw_end_of_line, raw_sample})
+    .data_o ({[% if unwrapping %]raw_second, [% endif %]raw_start_of_set, raw_start_of_frame, raw_end_of_line, raw_sample})
   );
 
   wire drain_start;
+[%- if unwrapping %]
+  wire complete_second;
+  wire complete_partner;
+[%- endif %]
   wire drain_busy;
   wire [[ drain_range ]] drain_address;
   wire take;
@@ -111,9 +122,16 @@ module [[ prefix ]]_pipeline (
     .start_of_frame_i(raw_start_of_frame),
     .start_of_set_i  (raw_start_of_set),
     .end_of_line_i   (raw_end_of_line),
+[%- if unwrapping %]
+    .second_i        (raw_second),
+[%- endif %]
     .drain_busy_i    (drain_busy),
     .drain_address_i (drain_address),
     .drain_start_o   (drain_start),
+[%- if unwrapping %]
+    .second_o        (complete_second),
+    .partner_o       (complete_partner),
+[%- endif %]
     .take_o          (take),
     .sample_o        (sample),
     .address_o       (address),
@@ -206,12 +224,28 @@ module [[ prefix ]]_pipeline (
     .saturated_o    (sums_saturated)
   );
 
+[%- if unwrapping %]
+  // Of the set that drains.
+  reg sums_second_q;
+  reg sums_partner_q;
+  always @(posedge clk_i) begin
+    if (drain_start) begin
+      sums_second_q  <= complete_second;
+      sums_partner_q <= complete_partner;
+    end
+  end
+
+[%- endif %]
   wire angle_ready;
   wire angle_valid;
   wire angle_zero;
   wire angle_first;
   wire angle_last;
   wire angle_saturated;
+[%- if unwrapping %]
+  wire angle_second;
+  wire angle_partner;
+[%- endif %]
   wire [[ phase_range ]] angle_phase;
   wire [[ length_range ]] angle_length;
   wire [[ shift_range ]] angle_shift;
@@ -226,20 +260,22 @@ module [[ prefix ]]_pipeline (
     .ready_o (angle_ready),
     .x_i     (sums_in_phase),
     .y_i     (sums_quadrature),
-    .meta_i  ({sums_first, sums_last, sums_saturated, sums_offset}),
+    .meta_i  ({[% if unwrapping %]sums_second_q, sums_partner_q, [% endif %]sums_first, sums_last, sums_saturated, sums_offset}),
     .valid_o (angle_valid),
     .ready_i (advance),
     .phase_o (angle_phase),
     .zero_o  (angle_zero),
     .length_o(angle_length),
     .shift_o (angle_shift),
-    .meta_o  ({angle_first, angle_last, angle_saturated, angle_offset})
+    .meta_o  ({[% if unwrapping %]angle_second, angle_partner, [% endif %]angle_first, angle_last, angle_saturated, angle_offset})
   );
 
-  wire [[ offset_range ]] result_offset;
-  wire [[ distance_range ]] result_distance;
+  wire [[ offset_range ]] [[ single ]]_offset;
+[%- if !unwrapping %]
+  wire [[ distance_range ]] [[ single ]]_distance;
+[%- endif %]
 [%- if with_amplitude %]
-  wire [[ amplitude_range ]] result_amplitude;
+  wire [[ amplitude_range ]] [[ single ]]_amplitude;
 
   [[ prefix ]]_amplitude u_amplitude (
     .clk_i      (clk_i),
@@ -247,7 +283,7 @@ module [[ prefix ]]_pipeline (
     .x_i        (angle_length),
     .shift_i    (angle_shift),
     .zero_i     (angle_zero),
-    .amplitude_o(result_amplitude)
+    .amplitude_o([[ single ]]_amplitude)
   );
 [%- else %]
   wire unused_length = &{1'b0, angle_length, angle_shift};
@@ -257,42 +293,119 @@ module [[ prefix ]]_pipeline (
     .clk_i    (clk_i),
     .advance_i(advance),
     .sum_i    (angle_offset),
-    .offset_o (result_offset)
+    .offset_o ([[ single ]]_offset)
   );
 
+[%- if !unwrapping %]
   [[ prefix ]]_distance u_distance (
     .clk_i     (clk_i),
     .advance_i (advance),
     .phase_i   (angle_phase),
-    .distance_o(result_distance)
+    .distance_o([[ single ]]_distance)
   );
 
-  wire result_valid;
-  wire result_zero;
-  wire result_first;
-  wire result_last;
-  wire result_saturated;
-  wire [[ phase_range ]] result_phase;
+[%- endif %]
+  wire [[ single ]]_valid;
+  wire [[ single ]]_zero;
+  wire [[ single ]]_first;
+  wire [[ single ]]_last;
+  wire [[ single ]]_saturated;
+[%- if unwrapping %]
+  wire [[ single ]]_second;
+  wire [[ single ]]_partner;
+[%- endif %]
+  wire [[ phase_range ]] [[ single ]]_phase;
 
   [[ prefix ]]_delay #(
     .WIDTH ([[ result_delay_bits ]]),
     .CLOCKS(2)
-  ) u_result_delay (
+  ) u_[[ single ]]_delay (
     .clk_i    (clk_i),
     .rst_ni   (rst_ni),
     .advance_i(advance),
     .valid_i  (angle_valid),
-    .data_i   ({angle_zero, angle_first, angle_last, angle_saturated, angle_phase}),
-    .valid_o  (result_valid),
-    .data_o   ({result_zero, result_first, result_last, result_saturated, result_phase})
+    .data_i   ({[% if unwrapping %]angle_second, angle_partner, [% endif %]angle_zero, angle_first, angle_last, angle_saturated, angle_phase}),
+    .valid_o  ([[ single ]]_valid),
+    .data_o   ({[% if unwrapping %][[ single ]]_second, [[ single ]]_partner, [% endif %][[ single ]]_zero, [[ single ]]_first, [[ single ]]_last, [[ single ]]_saturated, [[ single ]]_phase})
   );
 
 [%- if minimum_amplitude == 0 %]
   // Without a vector there is no phase.
-  wire result_usable = !result_zero;
+  wire [[ single ]]_usable = ![[ single ]]_zero;
 [%- else %]
   // Without a vector, or with one under the specified minimum, there is no phase.
-  wire result_usable = !result_zero && result_amplitude >= [[ minimum_amplitude_literal ]];
+  wire [[ single ]]_usable = ![[ single ]]_zero && [[ single ]]_amplitude >= [[ minimum_amplitude_literal ]];
+[%- endif %]
+[%- if unwrapping %]
+
+  // The phase combined with that of the set before, then its distance; everything else waits for both.
+  wire [[ unwrapped_range ]] unwrapped_phase;
+  wire unwrapped_usable;
+
+  [[ prefix ]]_unwrapping u_unwrapping (
+    .clk_i    (clk_i),
+    .advance_i(advance),
+    .valid_i  (single_valid),
+    .first_i  (single_first),
+    .phase_i  (single_phase),
+    .usable_i (single_usable),
+    .second_i (single_second),
+    .partner_i(single_partner),
+    .phase_o  (unwrapped_phase),
+    .usable_o (unwrapped_usable)
+  );
+
+  wire [[ distance_range ]] result_distance;
+
+  [[ prefix ]]_distance u_distance (
+    .clk_i     (clk_i),
+    .advance_i (advance),
+    .phase_i   (unwrapped_phase),
+    .distance_o(result_distance)
+  );
+
+  wire [[ unwrapped_range ]] result_unwrapped;
+  wire result_unambiguous;
+  wire unused_unwrapped_valid;
+
+  [[ prefix ]]_delay #(
+    .WIDTH ([[ unwrapped_bits ]] + 1),
+    .CLOCKS(2)
+  ) u_unwrapped_delay (
+    .clk_i    (clk_i),
+    .rst_ni   (rst_ni),
+    .advance_i(advance),
+    .valid_i  (1'b0),
+    .data_i   ({unwrapped_usable, unwrapped_phase}),
+    .valid_o  (unused_unwrapped_valid),
+    .data_o   ({result_unambiguous, result_unwrapped})
+  );
+
+  wire result_valid;
+  wire result_first;
+  wire result_last;
+  wire result_saturated;
+  wire result_usable;
+  wire [[ phase_range ]] result_phase;
+[%- if with_amplitude %]
+  wire [[ amplitude_range ]] result_amplitude;
+[%- endif %]
+  wire [[ offset_range ]] result_offset;
+
+  [[ prefix ]]_delay #(
+    .WIDTH ([[ wait_bits ]]),
+    .CLOCKS(6)
+  ) u_wait (
+    .clk_i    (clk_i),
+    .rst_ni   (rst_ni),
+    .advance_i(advance),
+    .valid_i  (single_valid),
+    .data_i   ({single_first, single_last, single_saturated, single_usable,
+                [% if with_amplitude %]single_amplitude, [% endif %]single_offset, single_phase}),
+    .valid_o  (result_valid),
+    .data_o   ({result_first, result_last, result_saturated, result_usable,
+                [% if with_amplitude %]result_amplitude, [% endif %]result_offset, result_phase})
+  );
 [%- endif %]
 
   wire result_ready;

@@ -465,7 +465,7 @@ int main(int argc, char** argv) {
     if (offer) {
       top->s_axis_tdata = beat & 0xffff;
       top->s_axis_tlast = beat >> 18 & 1;
-      top->s_axis_tuser = beat >> 16 & 3;
+      top->s_axis_tuser = [% if bench.user_bits == 3 %](beat >> 20 & 1) << 2 | (beat >> 16 & 3)[% else %]beat >> 16 & 3[% endif %];
     }
   }
 #if VM_TRACE

@@ -11,7 +11,7 @@ module bench_taps (
   output wire        s_axis_tready,    // raw stream
   input  wire [[ "[" ]][[ bench.sample_bus - 1 ]]:0] s_axis_tdata,     // raw stream
   input  wire        s_axis_tlast,     // raw stream
-  input  wire [1:0]  s_axis_tuser,     // raw stream
+  input  wire [[ "[" ]][[ bench.user_bits - 1 ]]:0]  s_axis_tuser,     // raw stream
   output wire        m_axis_tvalid,    // result stream
   input  wire        m_axis_tready,    // result stream
   output wire [[ "[" ]][[ bench.result_bits - 1 ]]:0] m_axis_tdata,     // result stream

@@ -27,7 +27,7 @@ module testbench;
   reg rst_n = 1'b0;
   always #5 clk = !clk;
 
-  reg  [19:0] stimulus [0:STIMULUS-1];
+  reg  [[ "[" ]][[ bench.stimulus_bits - 1 ]]:0] stimulus [0:STIMULUS-1];
   reg  [31:0] epoch_end [0:2*EPOCHS-1];  // results and announcements due
   reg  [31:0] rests [0:3*RESTS-1];  // results due, sets done, sets discarded
   reg  [[ "[" ]][[ bench.announcement_bits - 1 ]]:0] announcements [0:[[ bench.announcement_lines - 1 ]]];  // {first of a set, phase step, its phase}
@@ -42,7 +42,7 @@ module testbench;
   wire        s_axis_tready;
   reg  [[ "[" ]][[ bench.sample_bus - 1 ]]:0] s_axis_tdata = 0;
   reg         s_axis_tlast = 1'b0;
-  reg  [1:0]  s_axis_tuser = 2'd0;
+  reg  [[ "[" ]][[ bench.user_bits - 1 ]]:0]  s_axis_tuser = [[ bench.user_bits ]]'d0;
   wire        m_axis_tvalid;
   reg         m_axis_tready = 1'b0;
   wire [[ "[" ]][[ bench.result_bits - 1 ]]:0] m_axis_tdata;
@@ -192,7 +192,7 @@ module testbench;
   reg        resting   = 1'b0;
   reg        exact     = 1'b0;  // the next beat comes without a random pause
   reg        stopped   = 1'b0;
-  reg [19:0] next;
+  reg [[ "[" ]][[ bench.stimulus_bits - 1 ]]:0] next;
   reg        held_valid = 1'b0;
   reg [[ "[" ]][[ bench.result_bits + 1 ]]:0] held = 0;
 
@@ -493,7 +493,7 @@ module testbench;
           s_axis_tvalid <= 1'b1;
           s_axis_tdata  <= next[15:0];
           s_axis_tlast  <= next[18];
-          s_axis_tuser  <= next[17:16];
+          s_axis_tuser  <= [% if bench.user_bits == 3 %]{next[20], next[17:16]}[% else %]next[17:16][% endif %];
         end
       end
     end

@@ -186,30 +186,27 @@ fn explain_prints_the_widths_of_the_wdft_preset_as_computed_by_hand() {
         ("quadrature sum", "15 bits signed"),
         // 9 · 4095 = 36855 < 2^16
         ("offset sum", "16 bits unsigned"),
-        // 16 + 15 + 16 + 1
-        ("memory word", "48 bits"),
-        // 48 · 160 · 120
-        ("memory", "921600 bits"),
-        // 1351² − 3 · 780² = 1825201 − 1825200
-        ("factors of quadrature, in-phase", "1351, 780"),
-        // 24570 · 780 = 19164600, between 2^24 and 2^25
-        ("x", "26 bits signed"),
-        // 12285 · 1351 = 16597035, just under 2^24 = 16777216
-        ("y", "25 bits signed"),
-        ("larger magnitude", "25 bits"),
-        // All counts of leading zeros of 25 bits: 16 + 8 + 4 + 2 + 1 = 31 ≥ 24
-        ("shift stages", "[16, 8, 4, 2, 1]"),
-        // 18 + 4
-        ("normalised to", "22 fraction bits"),
-        ("CORDIC x", "24 bits unsigned"),
-        ("CORDIC y", "25 bits signed"),
-        // 18 + 6 bits a turn, a quarter turn either way
-        ("angle", "23 bits signed"),
-        ("iterations", "20"),
-        // 1 + 1 + 1 + 1 + 5 + 1 + 20 + 2 + 2
-        ("latency", "34 clocks"),
+        // 3 · 4095 = 12285 < 2^14 twice, 4095, and a flag: 14 + 14 + 12 + 1
+        ("memory word", "41 bits"),
+        // 41 · 160 · 120
+        ("memory", "787200 bits"),
+        // 19 + 19 + 5 + 2 blocks of 1024 x 18, 1024 x 18, 4096 x 4 and 16384 x 1 bits
+        ("memory columns", "[18, 18, 4, 1]"),
+        // sin 60° = √3 / 2
+        ("metric", "3"),
+        // 16 bits, without the sign
+        ("magnitudes", "15 bits"),
+        // −1 is 15 places away from the top: 8 + 4 + 2 + 1 = 15
+        ("shifts", "[8, 4, 2, 1]"),
+        // 18 + 2
+        ("normalised to", "20 fraction bits"),
+        ("iterations", "19"),
+        // 18 + 5
+        ("angle", "23 bits"),
+        // Load, start, iterations 0 to 18, the last direction, the result: 1 + 1 + 19 + 1 + 1; 2 + 1 behind the angle unit
+        ("latency", "26 clocks"),
         ("phase", "bits 17:0"),
-        // 19164600² + 16597035² = (25352480)², / (9 · 780) · 2^4 = 57783 < 2^16: from bit 24 on
+        // 24570² + 3 · 12285² = (32503)², / 9 · 2^4 = 57783 < 2^16: from bit 24 on
         ("amplitude", "bits 39:24"),
         // 12 + 4 bits
         ("offset", "bits 55:40"),
@@ -234,14 +231,13 @@ fn explain_prints_the_widths_of_the_four_frame_preset_as_computed_by_hand() {
         // 13 + 13 + 14 + 1, · 19200
         ("memory word", "41 bits"),
         ("memory", "787200 bits"),
-        ("factors", "1, 1"),
-        ("x", "13 bits signed"),
-        ("y", "13 bits signed"),
-        ("larger magnitude", "12 bits"),
-        ("shift stages", "[8, 4, 2, 1]"),
-        ("normalised to", "22 fraction bits"),
-        // 1 + 1 + 1 + 1 + 4 + 0 + 20 + 2 + 2: nothing is rounded off
-        ("latency", "32 clocks"),
+        ("metric", "1"),
+        ("magnitudes", "12 bits"),
+        // 12 places: 8 + 4 + 2 + 1
+        ("shifts", "[8, 4, 2, 1]"),
+        ("normalised to", "20 fraction bits"),
+        // As the WDFT's: the same iterations
+        ("latency", "26 clocks"),
     ] {
         assert_eq!(values.get(quantity).map(String::as_str), Some(value), "{quantity}");
     }
@@ -259,11 +255,9 @@ fn explain_prints_every_derived_word_and_bound() {
             ("in-phase sum", word(derived.in_phase)),
             ("quadrature sum", word(derived.quadrature)),
             ("offset sum", word(derived.offset_sum)),
-            ("x", word(derived.x)),
-            ("y", word(derived.y)),
-            ("CORDIC x", word(derived.cordic_x)),
-            ("CORDIC y", word(derived.cordic_y)),
-            ("angle", word(derived.angle)),
+            ("magnitudes", format!("{} bits", derived.angle.magnitude_bits)),
+            ("iterations", derived.angle.iterations.to_string()),
+            ("angle", format!("{} bits", derived.angle.angle_bits)),
             ("memory", format!("{} bits", derived.memory_bits)),
             ("latency", format!("{} clocks", derived.latency_clocks)),
         ] {

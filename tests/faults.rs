@@ -10,8 +10,8 @@ use support::{everything, small, two_at_a_time};
 use vuris::artifact::Artifact;
 use vuris::cosim::{Simulation, Simulator, Traffic, simulate};
 use vuris::frames::RawSets;
-use vuris::hdl::{Golden, MODULES, Scenario, Segment, Source, rtl_artifacts};
-use vuris::spec::Pipeline;
+use vuris::hdl::{Golden, Scenario, Segment, Source, modules, rtl_artifacts};
+use vuris::spec::{Pipeline, Throughput};
 
 /// What goes wrong; the right text, which must be there exactly once; what replaces it.
 struct Fault(&'static str, &'static str, &'static str);
@@ -94,19 +94,39 @@ const PRESET_FAULTS: &[Faults] = &[
     (
         "sum_memory",
         &[
-            Fault("lowest bit not stored", "<= write_data_i;", "<= {write_data_i[WORD_BITS-1:1], 1'b0};"),
-            Fault("sums that wait are read over", "if (read_i) read_data_q", "read_data_q"),
+            Fault(
+                "lowest bit not stored",
+                "memory_0[write_address_i] <= write_data_i[17:0];",
+                "memory_0[write_address_i] <= {write_data_i[17:1], 1'b0};",
+            ),
+            Fault("sums that wait are read over", "if (read_i) read_1_q", "read_1_q"),
+            Fault(
+                "a column read from the next one's place",
+                "read_data_o[39:36] = read_2_q",
+                "read_data_o[39:36] = read_0_q[3:0]",
+            ),
+            Fault("last column not written", "if (write_i) memory_3", "if (1'b0) memory_3"),
         ],
     ),
     (
         "accumulator",
         &[
             Fault(
-                "sign of a weight",
-                "-(sample_quadrature + (sample_quadrature << 1))",
-                "sample_quadrature + (sample_quadrature << 1)",
+                "sign of a group",
+                "(group_a_wide << 1) - group_b_wide",
+                "(group_a_wide << 1) + group_b_wide",
             ),
-            Fault("weight shifted a place too few", "(sample_in_phase << 2)", "(sample_in_phase << 1)"),
+            Fault(
+                "group counted once too few",
+                "in_phase_wide   = (group_a_wide << 1)",
+                "in_phase_wide   = group_a_wide",
+            ),
+            Fault("weight shifted a place too few", "(group_b_sample << 1)", "group_b_sample"),
+            Fault(
+                "a sum of the pixel before",
+                "offset_q     <= offset_wide",
+                "if (valid_q) offset_q <= offset_wide",
+            ),
             Fault("weights of two steps swapped", "case (step_i)", "case (step_i ^ 3'd1)"),
             Fault("saturation a code late", "sample_i >= SATURATION", "sample_i > SATURATION"),
             Fault(
@@ -124,93 +144,94 @@ const PRESET_FAULTS: &[Faults] = &[
             ),
             Fault(
                 "frame starts a pixel late",
-                "first_q <= drain_address_q == {(ADDRESS_BITS+1){1'b0}}",
-                "first_q <= drain_address_q == {{ADDRESS_BITS{1'b0}}, 1'b1}",
+                "read_first_q <= drain_address_q == {(ADDRESS_BITS+1){1'b0}}",
+                "read_first_q <= drain_address_q == {{ADDRESS_BITS{1'b0}}, 1'b1}",
             ),
             Fault(
                 "drain does not wait",
                 "drain_busy_q && advance_i && !drain_end",
                 "drain_busy_q && !drain_end",
             ),
-            Fault("drain survives a reset", "      drain_busy_q <= 1'b0;\n      valid_q", "      valid_q"),
-        ],
-    ),
-    (
-        "scaling",
-        &[
-            Fault("factor one too large", "26'sd780", "26'sd781"),
             Fault(
-                "sum extended without its sign",
-                "{(X_BITS-IN_PHASE_BITS){in_phase_i[IN_PHASE_BITS-1]}}",
-                "{(X_BITS-IN_PHASE_BITS){1'b0}}",
+                "drain survives a reset",
+                "      drain_busy_q <= 1'b0;\n      read_valid_q",
+                "      read_valid_q",
             ),
         ],
     ),
     (
-        "shift_stage",
+        "angle",
         &[
-            Fault("one coordinate shifted a place less", "minor_i << PLACES", "minor_i << (PLACES - 1)"),
-            Fault("shift not counted", "shift_i | THIS_STAGE", "shift_i"),
-        ],
-    ),
-    (
-        "normaliser",
-        &[
-            Fault("magnitude as one's complement", " + {{(X_BITS-2){1'b0}}, x_i[X_BITS-1]}", ""),
+            Fault("complement of a negative x forgotten", "x_raw ^ {BITS{x_i[X_BITS-1]}}", "x_raw"),
             Fault(
-                "smaller coordinate not swapped",
-                "swapped ? x_magnitude_q : y_magnitude_q",
-                "y_magnitude_q",
+                "ones do not follow a complement",
+                "{wait_y_q[BITS-2:0], wait_y_negative_q}",
+                "{wait_y_q[BITS-2:0], 1'b0}",
             ),
             Fault(
-                "signs exchanged",
-                "swapped, y_negative_q, x_negative_q",
-                "swapped, x_negative_q, y_negative_q",
+                "a weak vector is not shifted to the top",
+                "wait_top   = wait_x_q[BITS-1] | wait_y_q[BITS-1]",
+                "wait_top   = wait_x_q[BITS-1] | wait_y_q[BITS-1] | wait_y_q[BITS-2]",
             ),
-            Fault("vector cut off instead of rounded", "minor_kept + minor_carry", "minor_kept"),
-        ],
-    ),
-    (
-        "cordic_stage",
-        &[
-            Fault("shift without sign", ">>> (PLACES - 1)", ">> (PLACES - 1)"),
-            Fault("carry of the rounding dropped", "x_i[PLACES-1] ^ !negative", "!negative"),
+            Fault("shifts end a place early", "wait_shift_q == 4'd15", "wait_shift_q == 4'd14"),
+            Fault(
+                "next vector starts while the result waits",
+                "leave = done && (!result_valid_q || ready_i)",
+                "leave = done",
+            ),
+            Fault("vector taken without room", "ready_o = !wait_valid_q || start", "ready_o = 1'b1"),
+            Fault("one iteration too few", "count_q == 5'd20", "count_q == 5'd19"),
+            Fault("x follows an iteration too few", "count_q <= 5'd9)", "count_q <= 5'd8)"),
+            Fault("carry of the rounding dropped", "x_q + grown + carry", "x_q + grown"),
+            Fault("sign forgotten in |y|", "^ {(TURN_Y_BITS-1){sign}}", ""),
+            Fault("lowest bit of y not repeated", "{magnitude, magnitude[0]} -", "{magnitude, 1'b0} -"),
+            Fault("three times y is two and a half", "+ {2'd0, magnitude} +", "+ {3'd0, magnitude[23:1]} +"),
+            Fault(
+                "direction of the fold forgotten",
+                "wait_x_negative_q ^ wait_y_negative_q : direction",
+                "1'b0 : direction",
+            ),
+            Fault("directions do not add up", "direction = direction_q ^ sign", "direction = sign"),
+            Fault("one angle of the table off by 1", "21'd36130", "21'd36131"),
             Fault(
                 "angle added the wrong way",
-                "STEP ^ {ANGLE_BITS{negative}}",
-                "STEP ^ {ANGLE_BITS{!negative}}",
-            ),
-            Fault("iteration does not hold", "if (advance_i) begin", "begin"),
-        ],
-    ),
-    (
-        "cordic",
-        &[
-            Fault("one angle of the table off by 1", "(23'd41718)", "(23'd41719)"),
-            Fault("one iteration by the next one's shift", ".PLACES(7)", ".PLACES(8)"),
-        ],
-    ),
-    (
-        "phase",
-        &[
-            Fault(
-                "octant counted from the wrong axis",
-                "swapped ? octant_q[1] : octant_q[0]",
-                "swapped ? octant_q[0] : octant_q[1]",
+                "else if (!direction && !done)",
+                "else if (direction && !done)",
             ),
             Fault(
-                "octant counted backwards",
-                "backwards = ^octant_q",
-                "backwards = octant_q[2] ^ octant_q[0]",
+                "angle goes on while the result waits",
+                "else if (!direction && !done)",
+                "else if (!direction)",
             ),
-            Fault("phase cut off instead of rounded", "kept + carry", "kept"),
-            Fault("phase without a vector", "zero_q ? {PHASE_BITS{1'b0}} : turned", "turned"),
+            Fault("fold's angle the wrong way", "direction ? 23'd", "!direction ? 23'd"),
+            Fault(
+                "half turn forgotten",
+                "[ANGLE_BITS-1:ANGLE_BITS-1] + sector",
+                "[ANGLE_BITS-1:ANGLE_BITS-1]",
+            ),
+            Fault("phase without a vector", "zero_q ? {PHASE_BITS{1'b0}} : turned_phase", "turned_phase"),
+            Fault(
+                "shift of the next vector",
+                "result_shift_q  <= shift_q",
+                "result_shift_q  <= wait_shift_q",
+            ),
+            Fault("result withdrawn", "(result_valid_q && !ready_i)", "1'b0"),
+            Fault(
+                "vector that waits survives a reset",
+                "if (!rst_ni) wait_valid_q <= 1'b0;\n    else wait_valid_q",
+                "wait_valid_q",
+            ),
+            Fault(
+                "turn survives a reset",
+                "if (!rst_ni) turning_q <= 1'b0;\n    else turning_q",
+                "turning_q",
+            ),
         ],
     ),
     (
         "amplitude",
         &[
-            Fault("shifted a place too far", "6'd25", "6'd26"),
+            Fault("shifted a place too far", "6'd23", "6'd24"),
             Fault("amplitude cut off instead of rounded", "shifted[0]}", "1'b0}"),
         ],
     ),
@@ -259,15 +280,123 @@ const PRESET_FAULTS: &[Faults] = &[
     (
         "pipeline",
         &[
-            Fault("no vector is usable", "polar_usable = !polar_zero", "polar_usable = 1'b1"),
+            Fault("no vector is usable", "result_usable = !result_zero", "result_usable = 1'b1"),
             Fault("code beyond full scale wraps", " | {12{above_range}}", ""),
             Fault("free clock counted as stalled", "s_axis_tvalid && !s_axis_tready", "!s_axis_tready"),
             Fault("pipeline does not wait", "advance = !result_valid || result_ready", "advance = 1'b1"),
             Fault("another flag counted as saturated", "(m_axis_tdata[81])", "(m_axis_tdata[80])"),
-            Fault("flags a clock early", ".CLOCKS(2)\n  ) u_polar_delay", ".CLOCKS(1)\n  ) u_polar_delay"),
+            Fault("flags a clock early", ".CLOCKS(2)\n  ) u_result_delay", ".CLOCKS(1)\n  ) u_result_delay"),
+            Fault(
+                "sums taken before they are there",
+                "sums_taken = !sums_valid || angle_ready",
+                "sums_taken = angle_ready",
+            ),
+            Fault("sums that wait are lost", "sums_taken = !sums_valid || angle_ready", "sums_taken = 1'b1"),
         ],
     ),
 ];
+
+/// Faults of the unrolled angle unit.
+const FAST_FAULTS: &[Faults] = &[
+    (
+        "normaliser",
+        &[
+            Fault("ones do not follow a complement", "{x_0[6:0], {8{x_negative_0}}}", "{x_0[6:0], 8'd0}"),
+            Fault("one coordinate not shifted", "y_next_2 = empty_2 ? y_shifted_2 : y_1", "y_next_2 = y_1"),
+            Fault(
+                "top of one coordinate not looked at",
+                "~|(x_2[BITS-1:13] | y_2[BITS-1:13])",
+                "~|x_2[BITS-1:13]",
+            ),
+            Fault("shift not counted", "shift_2 | {2'd0, empty_3, 1'd0}", "shift_2"),
+            Fault(
+                "sign of the pixel behind",
+                "x_negative_1 <= x_negative_0",
+                "x_negative_1 <= x_i[X_BITS-1]",
+            ),
+            Fault(
+                "zero vector has a phase",
+                "zero_o       = !x_4[BITS-1] && !y_4[BITS-1]",
+                "zero_o       = 1'b0",
+            ),
+            Fault("normaliser survives a reset", "if (!rst_ni) valid_0 <= 1'b0;\n    else if", "if"),
+        ],
+    ),
+    (
+        "cordic",
+        &[
+            Fault("the complement's one forgotten", "{1'b0, y_kept, y_negative_i}", "{1'b0, y_kept, 1'b0}"),
+            Fault("ones below x's complement forgotten", "{x_kept, {7{x_negative_i}}}", "{x_kept, 7'd0}"),
+            Fault("y tripled without its one", " + {23'd0, y_negative_i}", ""),
+            Fault("x without its one", "triple_0 + {23'd0, directions_0[1]}", "triple_0"),
+            Fault("sign forgotten in |y|", "y_3[23:0] ^ {24{sign_4}}", "y_3[23:0]"),
+            Fault(
+                "carry of the rounding dropped",
+                "{{1'd0, x_3[24:2]}, x_3[1]}",
+                "{{1'd0, x_3[24:2]}, 1'b0}",
+            ),
+            Fault("triple is double", "triple_next_4 = {2'd0, magnitude_4} +", "triple_next_4 ="),
+            Fault(
+                "direction does not add up",
+                "{directions_3, directions_3[0] ^ sign_4}",
+                "{directions_3, sign_4}",
+            ),
+            Fault("an iteration does not hold", "if (advance_i) begin\n      x_4 <=", "begin\n      x_4 <="),
+            Fault("an iteration survives a reset", "if (!rst_ni) valid_4 <= 1'b0;\n    else if", "if"),
+        ],
+    ),
+    (
+        "phase",
+        &[
+            Fault("one sum of a table off by 1", "19'd180090", "19'd180091"),
+            Fault(
+                "two directions of a table exchanged",
+                "case (directions_i[11:8])",
+                "case ({directions_i[11:10], directions_i[8], directions_i[9]})",
+            ),
+            Fault("row of the pixel behind", "row_1_1 <= row_1_0", "row_1_1 <= 19'd270348"),
+            Fault("smallest table left out", "row_3_0 + {4'd0, row_4_0}", "row_3_0"),
+            Fault(
+                "half turn forgotten",
+                "{beside_3[META_BITS+1:META_BITS+1], {2'd0, sum_3}}",
+                "{3'd0, sum_3}",
+            ),
+            Fault("phase without a vector", "beside_3[META_BITS] ? {PHASE_BITS{1'b0}} : ", ""),
+            Fault("sum does not hold", "if (advance_i) begin\n      sum_2", "begin\n      sum_2"),
+            Fault("sum survives a reset", "if (!rst_ni) valid_q <= 5'd0;\n    else if", "if"),
+        ],
+    ),
+    ("angle", &[Fault("pipeline does not wait", "advance = !valid_o || ready_i", "advance = 1'b1")]),
+];
+
+/// Faults of the ring of the folded angle unit: five stages, four rounds.
+const FOLDED_FAULTS: &[Faults] = &[(
+    "cordic",
+    &[
+        Fault(
+            "vector taken into a place that is not free",
+            "ready_o = advance_i && !back",
+            "ready_o = advance_i",
+        ),
+        Fault("one round too few", "LAST_ROUND = 2'd3", "LAST_ROUND = 2'd2"),
+        Fault("rounds not counted", "back ? round_4 + 2'd1", "back ? round_4"),
+        Fault("round of a new vector not 0", ": 2'd0;\n      x_0", ": 2'd1;\n      x_0"),
+        Fault("direction of the fold forgotten", "x_negative_i ^ y_negative_i}", "1'b0}"),
+        Fault(
+            "last direction forgotten",
+            "directions_next_4[0] ^ y_next_4[Y_BITS-1]}",
+            "directions_next_4[0]}",
+        ),
+        Fault("lowest bit of y not repeated", "{magnitude_2, magnitude_2[0]}", "{magnitude_2, 1'b0}"),
+        Fault("what leaves does not wait", "else if (advance_i) leave_valid_q", "else leave_valid_q"),
+        Fault(
+            "what travels along of another vector",
+            "meta_0       <= back ? meta_4 : meta_i",
+            "meta_0       <= meta_i",
+        ),
+        Fault("ring survives a reset", "if (!rst_ni) valid_2 <= 1'b0;\n    else if", "if"),
+    ],
+)];
 
 /// Faults of what the preset has no use for: several frames a step, another order of the steps, and a least amplitude.
 const FOUR_FRAME_FAULTS: &[Faults] = &[
@@ -348,9 +477,22 @@ fn first_finding(
     })
 }
 
+/// The pipelines into which faults are seeded, and their faults.
+fn subjects() -> [(Pipeline, &'static [Faults]); 4] {
+    let folded = small("vuris", |specification| {
+        specification.cordic.throughput = Throughput::CyclesPerPixel(4);
+    });
+    [
+        (small("vuris", |_| {}), PRESET_FAULTS),
+        (small("vuris-fast", |_| {}), FAST_FAULTS),
+        (folded, FOLDED_FAULTS),
+        (four_frame(), FOUR_FRAME_FAULTS),
+    ]
+}
+
 fn every_fault_is_seen_by(simulator: Simulator) {
     let mut seen = 0;
-    for (pipeline, table) in [(small("vuris", |_| {}), PRESET_FAULTS), (four_frame(), FOUR_FRAME_FAULTS)] {
+    for (pipeline, table) in subjects() {
         let golden = Golden::new(&pipeline, &everything(&pipeline, 1));
         for &(noun, faults) in table {
             let source = Source { pipeline: &pipeline, spec: "small" };
@@ -392,8 +534,13 @@ fn verilator_sees_every_fault() {
 
 #[test]
 fn every_module_has_a_fault() {
-    for noun in MODULES.iter().map(|module| module.noun).chain(["pipeline"]) {
-        assert!(PRESET_FAULTS.iter().any(|&(of, faults)| of == noun && !faults.is_empty()), "{noun}");
+    let faulty = |noun: &str| {
+        subjects().iter().any(|(_, table)| table.iter().any(|&(of, faults)| of == noun && !faults.is_empty()))
+    };
+    for (pipeline, _) in subjects() {
+        for noun in modules(&pipeline).into_iter().map(|(noun, _)| noun).chain(["pipeline"]) {
+            assert!(faulty(noun), "{noun}");
+        }
     }
 }
 
@@ -455,7 +602,7 @@ fn a_mismatch_is_told_with_place_clock_and_both_values_and_leaves_a_waveform() {
     let raw = RawSets::new(pipeline.geometry(), frames, codes).unwrap();
     let golden = Golden::new(&pipeline, &Scenario { segments: vec![Segment::of_sets("a flash", &raw)] });
     let source = Source { pipeline: &pipeline, spec: "small" };
-    let fault = Fault("sign of a weight", "-sample_in_phase", "sample_in_phase");
+    let fault = Fault("sign of a weight", "-in_phase_sample", "in_phase_sample");
     for simulator in Simulator::ALL {
         let folder = tempfile::tempdir().unwrap();
         let traffic = Traffic { seed: 1, pause_percent: 0, stop_percent: 0 };

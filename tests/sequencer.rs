@@ -42,7 +42,7 @@ fn frames_in_any_order_of_their_steps_give_the_same_results() {
         .run(&(specifications(), any::<u64>()), |(mut specification, seed)| {
             specification.modulation.order = None;
             let ascending = Pipeline::new("any", specification.clone()).unwrap();
-            specification.modulation.order = shuffled(ascending.modulation.scheme, seed);
+            specification.modulation.order = shuffled(&ascending.modulation.scheme, seed);
             let permuted = Pipeline::new("any", specification).unwrap();
             let raw = random_sets(&ascending, seed, 2);
             let order = permuted.modulation.steps_in_order();
@@ -145,7 +145,8 @@ fn every_order_of_four_steps_agrees_in_verilator() {
     support::two_at_a_time(&built, |order| {
         let pipeline = small("vuris-four-frame", |specification| {
             (specification.sensor.width, specification.sensor.height) = (4, 2);
-            specification.modulation.order = normalised_order(specification.modulation.scheme, order.clone());
+            specification.modulation.order =
+                normalised_order(&specification.modulation.scheme, order.clone());
         });
         let golden = golden(&pipeline, &taken_in(order, &ascending, &raw));
         assert_eq!(golden.records, expected, "{order:?}");

@@ -203,7 +203,6 @@ module vuris_pipeline (
     .offset_o       (sums_offset),
     .saturated_o    (sums_saturated)
   );
-
   wire angle_ready;
   wire angle_valid;
   wire angle_zero;
@@ -253,14 +252,12 @@ module vuris_pipeline (
     .sum_i    (angle_offset),
     .offset_o (result_offset)
   );
-
   vuris_distance u_distance (
     .clk_i     (clk_i),
     .advance_i (advance),
     .phase_i   (angle_phase),
     .distance_o(result_distance)
   );
-
   wire result_valid;
   wire result_zero;
   wire result_first;

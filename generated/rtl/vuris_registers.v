@@ -103,8 +103,8 @@ module vuris_registers #(
     case (read_word)
       4'd0: read_constant_d = 32'h56555253;  // identification
       4'd1: read_constant_d = 32'h00000100;  // version
-      4'd2: read_constant_d = 32'h523b2f02;  // hash_low
-      4'd3: read_constant_d = 32'h52b463e7;  // hash_high
+      4'd2: read_constant_d = 32'hb0e00e53;  // hash_low
+      4'd3: read_constant_d = 32'h1d8445f2;  // hash_high
       4'd4: read_constant_d = 32'h000000a0;  // width
       4'd5: read_constant_d = 32'h00000078;  // height
       4'd6: read_constant_d = 32'h00000005;  // frames

@@ -50,6 +50,6 @@
 #define VURIS_VERSION_VALUE 0x00000100u
 
 /* what hash_high and hash_low read as: the specification that this file was made from */
-#define VURIS_SPECIFICATION_HASH 0x52b463e7523b2f02ull
+#define VURIS_SPECIFICATION_HASH 0x1d8445f2b0e00e53ull
 
 #endif

@@ -48,4 +48,4 @@ pub const IDENTIFICATION_VALUE: u32 = 0x56555253;
 pub const VERSION_VALUE: u32 = 0x00000100;
 
 /// what hash_high and hash_low read as: the specification that this file was made from
-pub const SPECIFICATION_HASH: u64 = 0x52b463e7523b2f02;
+pub const SPECIFICATION_HASH: u64 = 0x1d8445f2b0e00e53;

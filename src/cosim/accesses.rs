@@ -41,7 +41,7 @@ fn everything_once() -> Vec<StreamEvent> {
     events.extend(read_all());
     for (address, _) in addresses().zip(REGISTERS).filter(|(_, register)| register.writable()) {
         for strobes in 0..16 {
-            events.push(write(address, 0x0101_0101 * (17 * strobes + 3), strobes));
+            events.push(write(address, 0x0101_0101_u32.wrapping_mul(17 * strobes + 3), strobes));
             events.push(read(address));
         }
         // One after the other, so that answers and the next writes meet.

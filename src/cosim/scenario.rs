@@ -339,5 +339,6 @@ pub fn standard(pipeline: &Pipeline, seed: u64) -> Scenario {
     segments.extend(register_accesses(pipeline, seed + 40_000));
     segments.extend(faulty_stream(pipeline, seed + 10_000));
     segments.extend(silences(pipeline, seed + 30_000));
-    Scenario { segments }
+    let scenario = Scenario { segments };
+    if pipeline.derived().unwrapper.is_some() { scenario.in_turn() } else { scenario }
 }

@@ -17,19 +17,66 @@ pub struct Vector {
     pub name: &'static str,
     word: fn(&Pipeline) -> Word,
     value: fn(&PixelRecord) -> i64,
+    /// Whether a pipeline has it.
+    belongs: fn(&Pipeline) -> bool,
+}
+
+fn always(_: &Pipeline) -> bool {
+    true
+}
+
+fn unwraps(pipeline: &Pipeline) -> bool {
+    pipeline.derived().unwrapper.is_some()
+}
+
+/// The vectors of `pipeline`'s benches.
+fn vectors(pipeline: &Pipeline) -> impl Iterator<Item = &'static Vector> {
+    VECTORS.iter().filter(|vector| (vector.belongs)(pipeline))
 }
 
 /// All vectors.
 pub const VECTORS: &[Vector] = &[
-    Vector { name: "in_phase", word: |p| p.derived().in_phase, value: |r| r.sums.in_phase },
-    Vector { name: "quadrature", word: |p| p.derived().quadrature, value: |r| r.sums.quadrature },
-    Vector { name: "offset_sum", word: |p| p.derived().offset_sum, value: |r| r.sums.offset },
-    Vector { name: "saturated", word: |_| Word::unsigned(1), value: |r| r.sums.saturated.into() },
-    Vector { name: "phase", word: |p| p.derived().phase, value: |r| r.phase },
-    Vector { name: "amplitude", word: |p| p.derived().amplitude, value: |r| r.amplitude },
-    Vector { name: "offset", word: |p| p.derived().offset, value: |r| r.offset },
-    Vector { name: "distance", word: |p| p.derived().distance, value: |r| r.distance },
-    Vector { name: "usable", word: |_| Word::unsigned(1), value: |r| r.valid.into() },
+    Vector { name: "in_phase", word: |p| p.derived().in_phase, value: |r| r.sums.in_phase, belongs: always },
+    Vector {
+        name: "quadrature",
+        word: |p| p.derived().quadrature,
+        value: |r| r.sums.quadrature,
+        belongs: always,
+    },
+    Vector {
+        name: "offset_sum",
+        word: |p| p.derived().offset_sum,
+        value: |r| r.sums.offset,
+        belongs: always,
+    },
+    Vector {
+        name: "saturated",
+        word: |_| Word::unsigned(1),
+        value: |r| r.sums.saturated.into(),
+        belongs: always,
+    },
+    Vector { name: "phase", word: |p| p.derived().phase, value: |r| r.phase, belongs: always },
+    Vector {
+        name: "amplitude",
+        word: |p| p.derived().amplitude,
+        value: |r| r.amplitude,
+        belongs: |p| p.output.amplitude,
+    },
+    Vector { name: "offset", word: |p| p.derived().offset, value: |r| r.offset, belongs: always },
+    Vector { name: "distance", word: |p| p.derived().distance, value: |r| r.distance, belongs: always },
+    Vector { name: "usable", word: |_| Word::unsigned(1), value: |r| r.valid.into(), belongs: always },
+    Vector {
+        name: "unwrapped",
+        word: |p| p.derived().unwrapper.as_ref().map_or(Word::unsigned(1), |unwrapper| unwrapper.unwrapped),
+        value: |r| r.unwrapped,
+        belongs: unwraps,
+    },
+    Vector {
+        name: "unambiguous",
+        word: |_| Word::unsigned(1),
+        value: |r| r.unambiguous.into(),
+        belongs: unwraps,
+    },
 ];
 
 /// A place in the core where every pixel of every set passes once.
@@ -67,6 +114,8 @@ pub const STAGES: &[Stage] = &[
             ("offset", "dut.result_offset"),
             ("distance", "dut.result_distance"),
             ("usable", "dut.result_usable"),
+            ("unwrapped", "dut.result_unwrapped"),
+            ("unambiguous", "dut.result_unambiguous"),
         ],
     },
     Stage {
@@ -79,6 +128,8 @@ pub const STAGES: &[Stage] = &[
             ("distance", ""),
             ("usable", ""),
             ("saturated", ""),
+            ("unwrapped", ""),
+            ("unambiguous", ""),
         ],
     },
 ];
@@ -102,12 +153,6 @@ pub struct Channel {
 
 /// Bits that the taps give each channel.
 const TAP_BITS: usize = 64;
-
-/// The vectors of `pipeline`'s benches: an amplitude that nobody asks for is not among them.
-fn vectors(pipeline: &Pipeline) -> impl Iterator<Item = &'static Vector> {
-    let amplitude = pipeline.output.amplitude;
-    VECTORS.iter().filter(move |vector| amplitude || vector.name != "amplitude")
-}
 
 /// Every channel of `pipeline`'s benches.
 pub fn channels(pipeline: &Pipeline) -> Vec<Channel> {
@@ -187,6 +232,9 @@ struct Bench {
     pixels: usize,
     width: usize,
     silence: u32,
+    /// Bits of `s_axis_tuser`, and of a line of the stimulus.
+    user_bits: u32,
+    stimulus_bits: u32,
     sample_bus: u32,
     result_bits: u32,
     padding: String,
@@ -279,10 +327,17 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
         pixels: pipeline.geometry().pixels(),
         width: pipeline.sensor.width,
         silence: pipeline.sensor.line_blanking_clocks,
+        user_bits: if unwraps(pipeline) { 3 } else { 2 },
+        stimulus_bits: stimulus_bits(pipeline),
         sample_bus: pipeline.derived().sample.bits.next_multiple_of(8),
         result_bits: result_bits(pipeline),
         padding: padding(pipeline),
     }
+}
+
+/// Bits of a line of the stimulus: one more where a set has one of two frequencies.
+fn stimulus_bits(pipeline: &Pipeline) -> u32 {
+    if unwraps(pipeline) { 21 } else { 20 }
 }
 
 /// `{first of a set, phase step, its phase}`, as the benches have it.
@@ -334,14 +389,14 @@ fn padded(values: impl Iterator<Item = u64>, count: usize) -> impl Iterator<Item
 pub fn vector_artifacts(source: &Source, golden: &Golden) -> Vec<Artifact> {
     let pipeline = source.pipeline;
     let note = |what: String| format!("Generated by `vuris generate --spec {}`: {what}", source.spec);
-    let stimulus_note = note(
-        "{operation, end of line, start of set, start of frame, code[15:0]}; 9nnnn a pause of n clocks, a0000 reset, b0000 rest, c0000 access"
-            .to_owned(),
-    );
+    let frequency = if unwraps(pipeline) { "second frequency, " } else { "" };
+    let stimulus_note = note(format!(
+        "{{{frequency}operation, end of line, start of set, start of frame, code[15:0]}}; 9nnnn a pause of n clocks, a0000 reset, b0000 rest, c0000 access"
+    ));
     let stimulus = golden.stimulus.iter().map(|&StimulusWord(word)| u64::from(word));
     let epochs = golden.epochs.iter().flat_map(|epoch| [epoch.records as u64, epoch.announcements as u64]);
     let mut artifacts = vec![
-        Artifact::new("vectors/stimulus.hex", hex(&stimulus_note, 20, stimulus)),
+        Artifact::new("vectors/stimulus.hex", hex(&stimulus_note, stimulus_bits(pipeline), stimulus)),
         Artifact::new(
             "vectors/epochs.hex",
             hex(

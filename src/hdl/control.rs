@@ -63,6 +63,7 @@ struct Framing {
     last_repeat: usize,
     last_step: usize,
     last_silence: u32,
+    unwrapping: bool,
 }
 
 pub(super) fn framing(source: &Source, banner: String) -> askama::Result<String> {
@@ -85,6 +86,7 @@ pub(super) fn framing(source: &Source, banner: String) -> askama::Result<String>
         last_repeat,
         last_step: pipeline.modulation.scheme.steps() - 1,
         last_silence,
+        unwrapping: pipeline.derived().unwrapper.is_some(),
     }
     .render()
 }

@@ -30,6 +30,27 @@ pub struct Scenario {
     pub segments: Vec<Segment>,
 }
 
+impl Scenario {
+    /// The same, with sets in turn at the first and the second modulation frequency; every fifth has that of the set before, so
+    /// that it has no partner. Where no set starts, the mark comes and goes and means nothing.
+    #[must_use]
+    pub fn in_turn(mut self) -> Self {
+        let (mut set, mut beat_number, mut second) = (0, 0_u32, true);
+        for event in self.segments.iter_mut().flat_map(|segment| &mut segment.events) {
+            let StreamEvent::Beat(beat) = event else { continue };
+            beat_number = beat_number.wrapping_add(1);
+            if beat.start_of_set && beat.start_of_frame {
+                set += 1;
+                second ^= set % 5 != 0;
+                beat.second_frequency = second;
+            } else {
+                beat.second_frequency = beat_number.is_multiple_of(3);
+            }
+        }
+        self
+    }
+}
+
 /// One line of the stimulus: a beat, or an operation of the bench.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StimulusWord(pub u32);
@@ -38,7 +59,7 @@ pub struct StimulusWord(pub u32);
 const OPERATION: u32 = 8 << 16;
 
 impl From<StreamEvent> for StimulusWord {
-    /// `{operation, end of line, start of set, start of frame, code[15:0]}`; operations: 9nnnn a pause of n clocks, a0000 reset,
+    /// `{second frequency, operation, end of line, start of set, start of frame, code[15:0]}`; operations: 9nnnn a pause of n clocks, a0000 reset,
     /// b0000 rest, c0000 the next access to a register begins.
     fn from(event: StreamEvent) -> Self {
         Self(match event {
@@ -46,8 +67,9 @@ impl From<StreamEvent> for StimulusWord {
             StreamEvent::Reset => OPERATION | 2 << 16,
             StreamEvent::Rest => OPERATION | 3 << 16,
             StreamEvent::Access(_) => OPERATION | 4 << 16,
-            StreamEvent::Beat(Beat { code, start_of_frame, start_of_set, end_of_line }) => {
-                u32::from(end_of_line) << 18
+            StreamEvent::Beat(Beat { code, start_of_frame, start_of_set, end_of_line, second_frequency }) => {
+                u32::from(second_frequency) << 20
+                    | u32::from(end_of_line) << 18
                     | u32::from(start_of_set) << 17
                     | u32::from(start_of_frame) << 16
                     | code.min(0xffff)

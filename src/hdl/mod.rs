@@ -14,6 +14,7 @@ mod rom;
 mod sequencer;
 mod text;
 mod top;
+mod unwrapping;
 
 pub use angle::{AngleSource, angle_core_artifacts, angle_stimulus};
 pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
@@ -94,6 +95,12 @@ const MODULES: &[Module] = &[
     },
     Module { noun: "offset", purpose: "The offset of a pixel.", belongs: always, render: polar::offset },
     Module {
+        noun: "unwrapping",
+        purpose: "The phases of two modulation frequencies combined to one over a longer range.",
+        belongs: |pipeline| pipeline.derived().unwrapper.is_some(),
+        render: unwrapping::unwrapping,
+    },
+    Module {
         noun: "distance",
         purpose: "The distance of a phase.",
         belongs: always,
@@ -107,9 +114,11 @@ const MODULES: &[Module] = &[
     },
 ];
 
-/// What travels beside a pixel's vector through the angle unit: first, last, saturated and the offset sum.
+/// What travels beside a pixel's vector through the angle unit: first, last, saturated and the offset sum; where the pipeline
+/// unwraps, also the set's frequency and whether it has a partner.
 fn beside_bits(pipeline: &Pipeline) -> u32 {
-    3 + pipeline.derived().offset_sum.bits
+    let unwrapping_bits = if pipeline.derived().unwrapper.is_some() { 2 } else { 0 };
+    unwrapping_bits + 3 + pipeline.derived().offset_sum.bits
 }
 
 /// The modules below the top of `pipeline`: noun and purpose, in the order in which they are listed.

@@ -3,12 +3,46 @@
 use super::Source;
 use super::text::{counter_bits, literal, range, table, zero_extended};
 use crate::model;
-use crate::spec::{ScaledConstant, Word, exact};
+use crate::spec::{Multipliers, ScaledConstant, Word, exact};
 use askama::Template;
 
 /// Bits of a constant's multiplier.
 fn factor_bits(factor: ScaledConstant) -> u32 {
     Word::holding(0, factor.multiplier).bits
+}
+
+/// `operand` of `bits` bits times the constant `multiplier`, modulo 2^bits.
+fn product(kind: Multipliers, operand: &str, bits: u32, multiplier: i64) -> String {
+    if kind == Multipliers::Dsp {
+        return format!("{operand} * {}", literal(bits, multiplier));
+    }
+    let mut text = String::new();
+    for (place, digit) in signed_digits(multiplier).into_iter().rev() {
+        let term = if place == 0 { operand.to_owned() } else { format!("({operand} << {place})") };
+        // The highest digit of a positive number is positive.
+        match (text.is_empty(), digit) {
+            (true, _) => text = term,
+            (false, 1) => text += &format!(" + {term}"),
+            (false, _) => text += &format!(" - {term}"),
+        }
+    }
+    text
+}
+
+/// The canonical signed-digit form of a positive number (Avizienis 1961): places and digits (1 or -1) that are not 0, lowest
+/// first; no two are neighbours, so they are as few as can be.
+fn signed_digits(number: i64) -> Vec<(u32, i64)> {
+    let (mut left, mut place, mut digits) = (number, 0, Vec::new());
+    while left != 0 {
+        if left & 1 == 1 {
+            let digit = if left & 3 == 3 { -1 } else { 1 };
+            digits.push((place, digit));
+            left -= digit;
+        }
+        left >>= 1;
+        place += 1;
+    }
+    digits
 }
 
 #[derive(Template)]
@@ -29,7 +63,7 @@ struct Amplitude {
     amplitude_bits: u32,
     places_range: String,
     spare_bits: bool,
-    factor: String,
+    product: String,
     places: String,
 }
 
@@ -65,7 +99,12 @@ pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<Strin
         amplitude_bits: derived.amplitude.bits,
         places_range: range(places_bits),
         spare_bits: product_bits > derived.amplitude.bits + 1,
-        factor: literal(product_bits, factor.multiplier),
+        product: product(
+            pipeline.output.multipliers,
+            &format!("{{{{FACTOR_BITS{{1'b0}}}}, x_i}}"),
+            product_bits,
+            factor.multiplier,
+        ),
         places: format!(
             "{} + {}",
             zero_extended("shift_i", shift_bits, places_bits),
@@ -87,8 +126,7 @@ struct Offset {
     rows: Vec<String>,
     sum_bits: u32,
     offset_bits: u32,
-    sum: String,
-    factor: String,
+    product: String,
 }
 
 pub(super) fn offset(source: &Source, banner: String) -> askama::Result<String> {
@@ -108,8 +146,12 @@ pub(super) fn offset(source: &Source, banner: String) -> askama::Result<String> 
         rows: table(&rows),
         sum_bits: derived.offset_sum.bits,
         offset_bits: derived.offset.bits,
-        sum: zero_extended("sum_i", derived.offset_sum.bits, product_bits),
-        factor: literal(product_bits, factor.multiplier),
+        product: product(
+            pipeline.output.multipliers,
+            &zero_extended("sum_i", derived.offset_sum.bits, product_bits),
+            product_bits,
+            factor.multiplier,
+        ),
     }
     .render()
 }
@@ -121,36 +163,67 @@ struct Distance {
     prefix: String,
     range_m: String,
     frequency_hz: f64,
+    turn: i64,
     unit_m: f64,
     multiplier: i64,
     factor_shift: u32,
     rows: Vec<String>,
     phase_bits: u32,
+    power: bool,
     distance_bits: u32,
-    phase: String,
-    factor: String,
+    product: String,
 }
 
 pub(super) fn distance(source: &Source, banner: String) -> askama::Result<String> {
     let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
     let factor = derived.distance_factor;
     let product_bits = derived.distance.bits + factor.shift;
-    let quarter = 1 << (derived.phase.bits - 2);
-    let rows = [1, quarter, derived.phase.max()]
+    let (phase, times) = match &derived.unwrapper {
+        None => (derived.phase, 1),
+        Some(unwrapper) => (unwrapper.unwrapped, unwrapper.ratio[0]),
+    };
+    let turn = derived.unwrapper.as_ref().map_or(phase.max() + 1, |unwrapper| unwrapper.codes_a_turn);
+    let quarter = turn / 4;
+    let frequency_hz = pipeline.modulation.frequency_hz / times as f64;
+    let rows = [1, quarter, turn - 1]
         .map(|phase| vec![phase.to_string(), model::distance(pipeline, phase).to_string()]);
     Distance {
         banner,
         prefix: pipeline.prefix(),
-        range_m: format!("{:.6}", crate::units::unambiguous_range_m(pipeline.modulation.frequency_hz)),
-        frequency_hz: pipeline.modulation.frequency_hz,
+        range_m: format!("{:.6}", crate::units::unambiguous_range_m(frequency_hz)),
+        frequency_hz,
+        turn,
         unit_m: pipeline.output.distance_unit_m,
         multiplier: factor.multiplier,
         factor_shift: factor.shift,
         rows: table(&rows),
-        phase_bits: derived.phase.bits,
+        phase_bits: phase.bits,
+        power: turn == 1 << phase.bits,
         distance_bits: derived.distance.bits,
-        phase: zero_extended("phase_i", derived.phase.bits, product_bits),
-        factor: literal(product_bits, factor.multiplier),
+        product: product(
+            pipeline.output.multipliers,
+            &zero_extended("phase_i", phase.bits, product_bits),
+            product_bits,
+            factor.multiplier,
+        ),
     }
     .render()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 7 = 8 - 1, 11 = 8 + 4 - 1 or, canonical, 16 - 4 - 1; digits add up to the number and have no neighbours.
+    #[test]
+    fn signed_digits_are_canonical() {
+        assert_eq!(signed_digits(7), [(0, -1), (3, 1)]);
+        assert_eq!(signed_digits(11), [(0, -1), (2, -1), (4, 1)]);
+        for number in 1..5000_i64 {
+            let digits = signed_digits(number);
+            assert_eq!(digits.iter().map(|(place, digit)| digit << place).sum::<i64>(), number);
+            assert!(digits.windows(2).all(|pair| pair[1].0 > pair[0].0 + 1), "{number}");
+        }
+        assert_eq!(product(Multipliers::ShiftAdd, "x", 8, 7), "(x << 3) - x");
+    }
 }

@@ -26,6 +26,16 @@ fn bytes(bits: u32) -> u32 {
 /// The result word's fields, lowest first.
 pub fn result_fields(pipeline: &Pipeline) -> Vec<ResultField> {
     let (derived, output) = (pipeline.derived(), &pipeline.output);
+    let unwrapped = derived.unwrapper.as_ref().map(|unwrapper| {
+        let meaning =
+            format!("unwrapped phase, turns of f0 / {}; 0 where there is none", unwrapper.codes_a_turn);
+        ("unwrapped", unwrapper.unwrapped.bits, meaning)
+    });
+    let unambiguous = unwrapped.as_ref().map(|_| {
+        let meaning =
+            "flag: there is an unwrapped phase and its distance (both sets usable, the residual small)";
+        ("unambiguous", 1, meaning.to_owned())
+    });
     let fields = [
         ("phase", derived.phase.bits, format!("phase, turns / 2^{}", output.phase_bits)),
         (
@@ -35,12 +45,17 @@ pub fn result_fields(pipeline: &Pipeline) -> Vec<ResultField> {
         ),
         ("offset", derived.offset.bits, format!("offset, DN / 2^{}", output.offset_fraction_bits)),
         ("distance", derived.distance.bits, format!("distance, {} m", output.distance_unit_m)),
+    ];
+    let flags = [
         ("usable", 1, "flag: there is a phase (a vector, and not too weak a one)".to_owned()),
         ("saturated", 1, "flag: a sample of any frame was saturated".to_owned()),
     ];
     let mut low = 0;
     fields
         .into_iter()
+        .chain(unwrapped)
+        .chain(flags)
+        .chain(unambiguous)
         .filter(|field| output.amplitude || field.0 != "amplitude")
         .map(|(name, bits, meaning)| {
             let field = ResultField { name, low, bits, meaning };
@@ -95,6 +110,12 @@ struct Top {
     amplitude_range: String,
     offset_range: String,
     distance_range: String,
+    unwrapping: bool,
+    /// What the names of a pixel's results begin with, before those of the set before are combined with them.
+    single: &'static str,
+    unwrapped_range: String,
+    unwrapped_bits: u32,
+    wait_bits: u32,
     registers: bool,
     register_address_range: String,
     saturated_bit: String,
@@ -123,6 +144,7 @@ pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String
     let (pipeline, derived) = (source.pipeline, source.pipeline.derived());
     let counters = Counters::new(source);
     let sample_bits = derived.sample.bits;
+    let unwrapped_bits = derived.unwrapper.as_ref().map_or(0, |unwrapper| unwrapper.unwrapped.bits);
     let saturated = result_fields(pipeline).into_iter().find(|field| field.name == "saturated");
     let saturated_bit = saturated.map_or(0, |field| field.low);
     let rows: Vec<FieldRow> = result_fields(pipeline)
@@ -149,7 +171,7 @@ pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String
         result_bus: range(result_bits(pipeline)),
         result_bits: result_bits(pipeline),
         packing: packing(pipeline),
-        result_delay_bits: 4 + derived.phase.bits,
+        result_delay_bits: if unwrapped_bits > 0 { 6 } else { 4 } + derived.phase.bits,
         drain_range: range(counters.address_bits + 1),
         address_range: range(counters.address_bits),
         step_range: range(counters.step_bits),
@@ -163,6 +185,14 @@ pub(super) fn pipeline(source: &Source, banner: String) -> askama::Result<String
         amplitude_range: range(derived.amplitude.bits),
         offset_range: range(derived.offset.bits),
         distance_range: range(derived.distance.bits),
+        unwrapping: unwrapped_bits > 0,
+        single: if unwrapped_bits > 0 { "single" } else { "result" },
+        unwrapped_range: range(unwrapped_bits.max(1)),
+        unwrapped_bits,
+        wait_bits: 4
+            + derived.offset.bits
+            + if pipeline.output.amplitude { derived.amplitude.bits } else { 0 }
+            + derived.phase.bits,
         registers: pipeline.registers.axi4_lite,
         register_address_range: range(ADDRESS_BITS),
         saturated_bit: format!("[{saturated_bit}]"),

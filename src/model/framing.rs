@@ -24,6 +24,10 @@ pub struct FramingEvent {
     pub commit: bool,
     /// The beat's place, where it belongs to a set.
     pub slot: Option<PixelSlot>,
+    /// Where a set is complete: it was of the second modulation frequency.
+    pub second_frequency: bool,
+    /// Where a set is complete: the one before was of the other frequency, and nothing was discarded between.
+    pub partner: bool,
     /// Number within its set of the frame that must come next, where the event decides that: where a frame begins, and where a
     /// set is lost.
     pub next: Option<usize>,
@@ -55,6 +59,10 @@ pub struct Framing {
     row: usize,
     repeat: usize,
     place: usize,
+    /// The present set is of the second frequency.
+    second_frequency: bool,
+    /// The frequency of the last complete set, unless something has been discarded since.
+    before: Option<bool>,
     /// Sets that were complete, modulo 2^32.
     pub sets_done: u32,
     /// Sets that were discarded, modulo 2^32.
@@ -75,6 +83,8 @@ impl Framing {
             row: 0,
             repeat: 0,
             place: 0,
+            second_frequency: false,
+            before: None,
             sets_done: 0,
             sets_discarded: 0,
         }
@@ -84,7 +94,13 @@ impl Framing {
     pub fn advance(&mut self, event: StreamEvent) -> FramingEvent {
         match event {
             StreamEvent::Reset => {
-                *self = Self { state: State::Lost, sets_done: 0, sets_discarded: 0, ..self.at_start() };
+                *self = Self {
+                    state: State::Lost,
+                    before: None,
+                    sets_done: 0,
+                    sets_discarded: 0,
+                    ..self.at_start()
+                };
                 FramingEvent::default()
             }
             StreamEvent::Pause { clocks } => self.silence(clocks > self.longest_pause_clocks),
@@ -96,34 +112,37 @@ impl Framing {
 
     /// A silence that is `long` ends a frame.
     fn silence(&mut self, long: bool) -> FramingEvent {
-        FramingEvent {
-            commit: long && self.state == State::Closing && self.commit(),
-            ..FramingEvent::default()
-        }
+        if long && self.state == State::Closing { self.commit() } else { FramingEvent::default() }
     }
 
     fn at_start(&self) -> Self {
         Self { column: 0, row: 0, repeat: 0, place: 0, ..self.clone() }
     }
 
-    fn commit(&mut self) -> bool {
+    fn commit(&mut self) -> FramingEvent {
         self.state = State::Idle;
         self.sets_done = self.sets_done.wrapping_add(1);
-        true
+        let second_frequency = self.second_frequency;
+        let before = self.before.replace(second_frequency);
+        let partner = before == Some(!second_frequency);
+        FramingEvent { commit: true, second_frequency, partner, ..FramingEvent::default() }
     }
 
     fn discard(&mut self) {
         self.sets_discarded = self.sets_discarded.wrapping_add(1);
+        self.before = None;
     }
 
     fn beat(&mut self, beat: Beat) -> FramingEvent {
-        let commit = self.state == State::Closing && beat.start_of_frame && self.commit();
+        let closes = self.state == State::Closing && beat.start_of_frame;
+        let outcome = if closes { self.commit() } else { FramingEvent::default() };
         let start = beat.start_of_set && beat.start_of_frame;
         if start {
             if self.state == State::Active {
                 self.discard();
             }
-            *self = Self { state: State::Active, ..self.at_start() };
+            let second_frequency = beat.second_frequency;
+            *self = Self { state: State::Active, second_frequency, ..self.at_start() };
         }
         let in_place = beat.start_of_frame == (self.column == 0 && self.row == 0)
             && (start || !beat.start_of_set)
@@ -140,7 +159,7 @@ impl Framing {
                 (None, Some(0))
             }
         };
-        FramingEvent { commit, slot, next }
+        FramingEvent { slot, next, ..outcome }
     }
 
     /// Number of the frame after the one that is being taken.

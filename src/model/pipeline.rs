@@ -5,6 +5,7 @@ use super::framing::Framing;
 use super::registers::{Access, Answer, Registers};
 use super::sequencer::{NextFrame, next_frame};
 use super::stream::StreamEvent;
+use super::unwrapping::PhaseMemory;
 use super::{amplitude, distance, offset, turn};
 use crate::spec::Pipeline;
 
@@ -19,13 +20,17 @@ pub struct PixelRecord {
     pub amplitude: i64,
     /// Offset, in its unit.
     pub offset: i64,
-    /// Distance, in its unit.
+    /// Distance, in its unit; of the unwrapped phase where the pipeline unwraps.
     pub distance: i64,
+    /// Unwrapped phase, in its unit; 0 where there is none.
+    pub unwrapped: i64,
+    /// Whether there is an unwrapped phase.
+    pub unambiguous: bool,
     /// Whether there is a phase: a vector, and not weaker than the specification's minimum.
     pub valid: bool,
 }
 
-/// A pixel's results from its sums.
+/// A pixel's results from its sums, without what takes the set before: unwrapped phase and, where there is one, distance.
 pub fn pixel(pipeline: &Pipeline, sums: Sums) -> PixelRecord {
     let turned = turn(&pipeline.derived().angle, sums.in_phase, sums.quadrature);
     let amplitude = amplitude(pipeline, turned.length, turned.shift, turned.zero);
@@ -34,7 +39,9 @@ pub fn pixel(pipeline: &Pipeline, sums: Sums) -> PixelRecord {
         phase: turned.phase,
         amplitude,
         offset: offset(pipeline, sums.offset),
-        distance: distance(pipeline, turned.phase),
+        distance: if pipeline.derived().unwrapper.is_some() { 0 } else { distance(pipeline, turned.phase) },
+        unwrapped: 0,
+        unambiguous: false,
         valid: !turned.zero && amplitude >= pipeline.derived().minimum_amplitude,
     }
 }
@@ -46,6 +53,7 @@ pub struct PipelineModel<'a> {
     framing: Framing,
     accumulator: Accumulator<'a>,
     registers: Registers<'a>,
+    phase_memory: Option<PhaseMemory<'a>>,
     announced: Option<NextFrame>,
 }
 
@@ -57,6 +65,7 @@ impl<'a> PipelineModel<'a> {
             framing: Framing::new(pipeline),
             accumulator: Accumulator::new(pipeline),
             registers: Registers::new(pipeline),
+            phase_memory: PhaseMemory::of(pipeline),
             announced: None,
         }
     }
@@ -68,11 +77,24 @@ impl<'a> PipelineModel<'a> {
         if event == StreamEvent::Reset {
             self.registers = Registers::new(self.pipeline);
         }
-        let set = outcome
-            .commit
-            .then(|| self.accumulator.sums().iter().map(|&sums| pixel(self.pipeline, sums)).collect());
+        let set = outcome.commit.then(|| self.set(outcome.second_frequency, outcome.partner));
         if let (Some(slot), StreamEvent::Beat(beat)) = (outcome.slot, event) {
             self.accumulator.add(slot, beat.code);
+        }
+        set
+    }
+
+    /// The pixels of the set that the accumulator holds, in order.
+    fn set(&mut self, second: bool, partner: bool) -> Vec<PixelRecord> {
+        let mut set: Vec<_> =
+            self.accumulator.sums().iter().map(|&sums| pixel(self.pipeline, sums)).collect();
+        if let Some(memory) = &mut self.phase_memory {
+            for (address, record) in set.iter_mut().enumerate() {
+                let unwrapped = memory.unwrap(address, record.phase, record.valid, second, partner);
+                record.unambiguous = unwrapped.is_some();
+                record.unwrapped = unwrapped.unwrap_or(0);
+                record.distance = distance(self.pipeline, record.unwrapped);
+            }
         }
         set
     }

@@ -14,6 +14,8 @@ pub struct Beat {
     pub start_of_set: bool,
     /// Last pixel of a line (`tlast`).
     pub end_of_line: bool,
+    /// The set is of the second modulation frequency (`tuser[2]`, where the pipeline unwraps); looked at with the start of set.
+    pub second_frequency: bool,
 }
 
 /// What can happen to the core.
@@ -43,6 +45,7 @@ pub fn beats_of_set(raw: &RawSets, set: usize) -> impl Iterator<Item = Beat> + '
             start_of_frame: pixel == 0,
             start_of_set: pixel == 0 && frame == 0,
             end_of_line: pixel % width == width - 1,
+            second_frequency: false,
         })
     })
 }

@@ -44,7 +44,7 @@ pub fn pipeline_for(
     let Steps { scheme, frames_per_step, order } = steps_of(recording, base, choice)?;
     let source = format!("{} adapted to {}", base.name, recording.folder.display());
     let pipeline = base.adapted(&source, |specification| {
-        let Specification { sensor, modulation, .. } = specification;
+        let Specification { sensor, modulation, unwrapping, .. } = specification;
         sensor.width = recording.geometry().width;
         sensor.height = recording.geometry().height;
         sensor.adc_bits = match recording.camera {
@@ -59,6 +59,8 @@ pub fn pipeline_for(
         modulation.scheme = scheme;
         modulation.frames_per_step = frames_per_step;
         modulation.frequency_hz = recording.frequency_hz;
+        // A recording has one frequency.
+        *unwrapping = None;
     })?;
     let sentences = differences(recording, base, &pipeline);
     Ok((pipeline, sentences))
@@ -69,7 +71,7 @@ fn differences(recording: &Recording, base: &Pipeline, pipeline: &Pipeline) -> V
     let adc_source = if recording.camera.is_some() { "camera.toml" } else { "the largest code" };
     let size = |pipeline: &Pipeline| format!("{} x {}", pipeline.sensor.width, pipeline.sensor.height);
     type Shown<'a> = &'a dyn Fn(&Pipeline) -> String;
-    let rows: [(&str, &str, Shown); 7] = [
+    let rows: [(&str, &str, Shown); 8] = [
         ("sensor", "frames.npy", &size),
         ("ADC", adc_source, &|p| format!("{} bits", p.sensor.adc_bits)),
         ("saturation", "the ADC's bits", &|p| format!("{} DN", p.sensor.saturation_dn)),
@@ -77,6 +79,10 @@ fn differences(recording: &Recording, base: &Pipeline, pipeline: &Pipeline) -> V
         ("frames per step", "the phase steps", &|p| p.modulation.frames_per_step.to_string()),
         ("order of the steps", "the phase steps", &shown_order),
         ("modulation", "recording.toml", &|p| format!("{} MHz", p.modulation.frequency_hz / 1e6)),
+        ("unwrapping", "its one frequency", &|p| match &p.unwrapping {
+            None => "none".to_owned(),
+            Some(unwrapping) => format!("{:?}", unwrapping.ratio),
+        }),
     ];
     rows.into_iter()
         .map(|(what, source, shown)| (what, source, shown(pipeline), shown(base)))

@@ -123,7 +123,26 @@ fn accumulator(pipeline: &Pipeline) -> Section {
         );
     }
     section.row("saturation flag", "1 bit", "set by any frame");
-    section.row("memory word", format!("{} bits", derived.memory_word_bits), "the sums and the flag");
+    section.row(
+        "memory word",
+        format!("{} bits", derived.memory_word_bits),
+        if derived.storage.is_plain() {
+            "the sums and the flag".to_owned()
+        } else {
+            let kept: Vec<String> = derived
+                .storage
+                .sums
+                .iter()
+                .map(|sum| format!("{:?} ({} bits)", sum.weights, sum.word.bits))
+                .collect();
+            format!("sums of weights {}, from which the three follow, and the flag", kept.join(", "))
+        },
+    );
+    section.row(
+        "memory columns",
+        format!("{:?}", derived.memory_columns),
+        "bits side by side, as wide as block RAMs can be, so that few of their bits lie idle",
+    );
     section.row(
         "memory",
         format!("{} bits", derived.memory_bits),

@@ -50,7 +50,8 @@ impl ErrorBudget {
             / (scheme.offset_gain() * pipeline.modulation.frames_per_step as i64) as f64;
         let distance_truth = crate::units::unambiguous_range_m(pipeline.modulation.frequency_hz)
             / pipeline.output.distance_unit_m
-            / f64::from(phase_bits).exp2();
+            / f64::from(phase_bits).exp2()
+            / derived.unwrapper.as_ref().map_or(1.0, |unwrapper| unwrapper.ratio[1] as f64);
         Self {
             phase: with_weight_error(angle.phase, pipeline),
             amplitude_relative: relative(derived.amplitude_factor.value(), amplitude_truth)

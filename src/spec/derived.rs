@@ -2,6 +2,7 @@
 
 use super::exact::{self, ScaledConstant};
 use super::storage::{self, Storage};
+use super::unwrapping::Unwrapper;
 use super::{AngleSpecification, AngleUnit, Atan, Specification, Word, refused};
 use crate::problem::Result;
 
@@ -41,9 +42,12 @@ pub struct Derived {
     pub offset: Word,
     /// Offset a unit of the offset sum.
     pub offset_factor: ScaledConstant,
-    /// The distance, in the specification's unit: at most the rounded unambiguous range.
+    /// What unwraps, where a second frequency does.
+    pub unwrapper: Option<Unwrapper>,
+    /// The distance, in the specification's unit: at most the rounded unambiguous range, of the unwrapped phase where there is
+    /// one.
     pub distance: Word,
-    /// Distance units a phase code.
+    /// Distance units a phase code, or an unwrapped one.
     pub distance_factor: ScaledConstant,
     /// Clocks from a pixel's sums at the memory's output to its result at the core's output, without back-pressure.
     pub latency_clocks: u32,
@@ -161,26 +165,44 @@ impl Derived {
             unrepresentable("output.offset_fraction_bits", output.offset_fraction_bits.to_string())
         })?;
 
-        let units = exact::distance_units_a_turn(modulation.frequency_hz, output.distance_unit_m);
+        let unwrapper = specification
+            .unwrapping
+            .as_ref()
+            .map(|unwrapping| Unwrapper::new(source, unwrapping, output.phase_bits))
+            .transpose()?;
+        let [turns, codes_divisor] = unwrapper.as_ref().map_or([1, 1], |unwrapper| unwrapper.ratio);
+        let units = exact::distance_units(modulation.frequency_hz, output.distance_unit_m, turns);
         let distance_bits = Word::holding(0, units).bits;
         if !(4..=32).contains(&distance_bits) {
             return Err(refused(source, "output.distance_unit_m", output.distance_unit_m)
                 .expected(format_args!(
                     "a unit of which the unambiguous range {:.4} m holds 8 to 2^32 - 1 (it holds {units})",
-                    crate::units::unambiguous_range_m(modulation.frequency_hz)
+                    crate::units::unambiguous_range_m(modulation.frequency_hz) * turns as f64
                 ))
                 .remedy("choose another unit"));
+        }
+        let code_bits = unwrapper.as_ref().map_or(output.phase_bits, |unwrapper| unwrapper.unwrapped.bits);
+        if code_bits + distance_bits + FACTOR_GUARD_BITS > 62 {
+            return Err(refused(source, "output.distance_unit_m", output.distance_unit_m)
+                .expected(format_args!(
+                    "a unit of which the unambiguous range holds less than 2^{}: its product with the phase has 62 bits",
+                    62 - FACTOR_GUARD_BITS - code_bits
+                ))
+                .remedy("choose a larger unit, or fewer output.phase_bits"));
         }
         let distance_factor = exact::distance_factor(
             modulation.frequency_hz,
             output.distance_unit_m,
             output.phase_bits,
+            codes_divisor,
             distance_bits + FACTOR_GUARD_BITS,
         )
         .ok_or_else(|| unrepresentable("output.distance_unit_m", output.distance_unit_m.to_string()))?;
 
-        // The angle unit, then amplitude, offset and distance side by side 2, output 1.
-        let latency_clocks = angle.latency_clocks() + 2 + 1;
+        // The angle unit, then amplitude, offset and distance side by side 2, output 1. The distance of an unwrapped phase comes
+        // after the amplitude, which says whether the phase is usable, and after 4 of the unwrapping.
+        let unwrapping_clocks = if unwrapper.is_some() { 4 + 2 } else { 0 };
+        let latency_clocks = angle.latency_clocks() + 2 + unwrapping_clocks + 1;
 
         Ok(Self {
             frames_per_set: scheme.steps() * modulation.frames_per_step,
@@ -199,6 +221,7 @@ impl Derived {
             minimum_amplitude,
             offset,
             offset_factor,
+            unwrapper,
             distance: Word::unsigned(distance_bits),
             distance_factor,
             latency_clocks,

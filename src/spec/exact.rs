@@ -108,14 +108,21 @@ pub fn ratio_factor(divisor: i64, exponent: i64, bits: u32) -> Option<ScaledCons
     ScaledConstant::new(&(power_of_two(exponent) / integer(divisor)), bits)
 }
 
-/// Distance units a phase code: c / (2 · `frequency_hz` · `unit_m`) / 2^`phase_bits`, to `bits` significant bits.
-pub fn distance_factor(frequency_hz: f64, unit_m: f64, phase_bits: u32, bits: u32) -> Option<ScaledConstant> {
-    ScaledConstant::new(&(units_a_turn(frequency_hz, unit_m) * power_of_two(-i64::from(phase_bits))), bits)
+/// Distance units a phase code: c / (2 · `frequency_hz` · `unit_m`) / (2^`phase_bits` · `divisor`), to `bits` significant bits.
+pub fn distance_factor(
+    frequency_hz: f64,
+    unit_m: f64,
+    phase_bits: u32,
+    divisor: i64,
+    bits: u32,
+) -> Option<ScaledConstant> {
+    let code = power_of_two(-i64::from(phase_bits)) / integer(divisor);
+    ScaledConstant::new(&(units_a_turn(frequency_hz, unit_m) * code), bits)
 }
 
-/// Distance units in the unambiguous range, rounded.
-pub fn distance_units_a_turn(frequency_hz: f64, unit_m: f64) -> i64 {
-    rounded(&units_a_turn(frequency_hz, unit_m))
+/// Distance units in `times` the unambiguous range, rounded.
+pub fn distance_units(frequency_hz: f64, unit_m: f64, times: i64) -> i64 {
+    rounded(&(units_a_turn(frequency_hz, unit_m) * integer(times)))
 }
 
 fn units_a_turn(frequency_hz: f64, unit_m: f64) -> Real {

@@ -3,8 +3,8 @@
 use super::angle::{read_cordic, write_cordic};
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Modulation, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order, refused,
-    scheme_file, sequence,
+    Modulation, Multipliers, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order,
+    refused, scheme_file, sequence, unwrapping,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -38,7 +38,7 @@ fn read_text(path: &Path) -> std::io::Result<String> {
 pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
     let table = fields::parse(source, text)?;
     let top = Fields::top(source, &table);
-    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers"])?;
+    top.only(&["format", "name", "sensor", "modulation", "cordic", "output", "registers", "unwrapping"])?;
     let expected_format = format!("\"{FORMAT}\"");
     if top.text("format", &expected_format)? != FORMAT {
         return Err(top.refuse("format", &expected_format));
@@ -88,7 +88,17 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         "offset_fraction_bits",
         "distance_unit_m",
         "minimum_amplitude_dn",
+        "multipliers",
     ])?;
+    let kinds = MULTIPLIERS.map(|row| format!("\"{}\"", row.0)).join(" or ");
+    let multipliers = match output.has("multipliers") {
+        false => Multipliers::Dsp,
+        true => {
+            let name = output.text("multipliers", &kinds)?;
+            let known = MULTIPLIERS.iter().find(|row| row.0 == name);
+            known.ok_or_else(|| output.refuse("multipliers", &kinds))?.1
+        }
+    };
     let output = Output {
         phase_bits: output.integer("phase_bits", 8..=24)? as u32,
         amplitude: output.flag_or("amplitude", true)?,
@@ -96,8 +106,10 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
         offset_fraction_bits: output.integer("offset_fraction_bits", 0..=8)? as u32,
         distance_unit_m: output.number("distance_unit_m", 1e-7..=1.0, "m")?,
         minimum_amplitude_dn: output.number_or("minimum_amplitude_dn", 0.0..=65_535.0, "DN", 0.0)?,
+        multipliers,
     };
-    Ok(Specification { name, sensor, modulation, cordic, output, registers: registers(&top)? })
+    let (registers, unwrapping) = (registers(&top)?, unwrapping::read(&top)?);
+    Ok(Specification { name, sensor, modulation, cordic, output, registers, unwrapping })
 }
 
 /// The order of the phase steps, where there is one; [`check`] sees whether it is the scheme's.
@@ -125,6 +137,9 @@ fn registers(top: &Fields) -> Result<RegisterBlock> {
         frequency_factor: registers.integer_or("frequency_factor", 0..=u32::MAX.into(), 0)? as u32,
     })
 }
+
+const MULTIPLIERS: [(&str, Multipliers); 2] =
+    [("dsp", Multipliers::Dsp), ("shift_add", Multipliers::ShiftAdd)];
 
 pub(super) const NAME_RULE: &str = "1 to 32 lower case letters, digits, `-` and `_`, a letter first (it begins the names of Verilog modules)";
 
@@ -179,7 +194,7 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
 
 /// The text of a file that reads as `specification`.
 pub(super) fn write(specification: &Specification) -> String {
-    let Specification { name, sensor, modulation, cordic, output, registers } = specification;
+    let Specification { name, sensor, modulation, cordic, output, registers, unwrapping } = specification;
     format!(
         "format = \"{FORMAT}\"\n\
          name = \"{name}\"\n\
@@ -190,9 +205,9 @@ pub(super) fn write(specification: &Specification) -> String {
          order = {:?}\nphase_step_bits = {}\n{}\
          \n{}\n[output]\n\
          phase_bits = {}\namplitude = {}\namplitude_fraction_bits = {}\noffset_fraction_bits = {}\n\
-         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\n\
+         distance_unit_m = {:?}\nminimum_amplitude_dn = {:?}\nmultipliers = \"{}\"\n\
          \n[registers]\n\
-         axi4_lite = {}\nfrequency_factor = {}\n",
+         axi4_lite = {}\nfrequency_factor = {}\n{}",
         sensor.width,
         sensor.height,
         sensor.adc_bits,
@@ -211,7 +226,9 @@ pub(super) fn write(specification: &Specification) -> String {
         output.offset_fraction_bits,
         output.distance_unit_m,
         output.minimum_amplitude_dn,
+        MULTIPLIERS.iter().find(|row| row.1 == output.multipliers).map_or("", |row| row.0),
         registers.axi4_lite,
         registers.frequency_factor,
+        unwrapping.as_ref().map(unwrapping::write).unwrap_or_default(),
     )
 }

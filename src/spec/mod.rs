@@ -20,6 +20,7 @@ mod scheme_file;
 mod sequence;
 mod step_angle;
 mod storage;
+mod unwrapping;
 mod word;
 
 pub use angle::{
@@ -42,6 +43,7 @@ pub use scheme::{Irrational, SCHEMES, Scheme, SchemeOrigin, scheme, scheme_names
 pub use sequence::normalised_order;
 pub use step_angle::StepAngle;
 pub use storage::{Storage, StoredSum};
+pub use unwrapping::{SHARE_BITS, Unwrapper, Unwrapping};
 pub use word::Word;
 
 use crate::frames::Geometry;
@@ -93,6 +95,17 @@ pub struct Output {
     pub distance_unit_m: f64,
     /// A pixel of less amplitude is marked invalid, DN.
     pub minimum_amplitude_dn: f64,
+    /// What the constant factors of amplitude, offset and distance are made of.
+    pub multipliers: Multipliers,
+}
+
+/// What a multiplication by a constant is made of. The products are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Multipliers {
+    /// Left to synthesis as a product: DSP blocks, where the device has them.
+    Dsp,
+    /// Shifts and adds, one for each digit of the factor's canonical signed-digit form that is not 0: no DSP block.
+    ShiftAdd,
 }
 
 /// What a user specifies.
@@ -110,6 +123,8 @@ pub struct Specification {
     pub output: Output,
     /// The register block.
     pub registers: RegisterBlock,
+    /// Unwrapping with a second modulation frequency, where there is one.
+    pub unwrapping: Option<Unwrapping>,
 }
 
 /// A specification that works, and all that follows from it.

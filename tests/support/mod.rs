@@ -13,8 +13,9 @@ use vuris::cosim::{random_sets, standard};
 use vuris::frames::RawSets;
 use vuris::hdl::{Scenario, Segment};
 use vuris::spec::{
-    AngleSpecification, AngleUnit, Atan, Cordic, Irrational, Modulation, Output, Pipeline, RegisterBlock,
-    Rounding, Row, SCHEMES, Scheme, Sensor, Specification, StepAngle, Throughput, normalised_order,
+    AngleSpecification, AngleUnit, Atan, Cordic, Irrational, Modulation, Multipliers, Output, Pipeline,
+    RegisterBlock, Rounding, Row, SCHEMES, Scheme, Sensor, Specification, StepAngle, Throughput,
+    normalised_order,
 };
 use vuris::units::unambiguous_range_m;
 
@@ -221,6 +222,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
             let range_m = unambiguous_range_m(modulation.frequency_hz);
             let full_scale_dn = f64::from(sensor.adc_bits).exp2();
             Specification {
+                unwrapping: None,
                 name: "any".to_owned(),
                 sensor,
                 cordic: Cordic { iterations: cordic.iterations.min(most_iterations), ..cordic },
@@ -230,6 +232,7 @@ pub fn specifications() -> impl Strategy<Value = Specification> {
                     amplitude_fraction_bits,
                     offset_fraction_bits,
                     distance_unit_m: range_m / distance_bits.exp2(),
+                    multipliers: if phase_bits % 2 == 0 { Multipliers::Dsp } else { Multipliers::ShiftAdd },
                     minimum_amplitude_dn: if amplitude { weakest.max(0.0) * full_scale_dn } else { 0.0 },
                 },
                 modulation,

@@ -272,14 +272,14 @@ impl AngleUnit {
         match self.architecture {
             Architecture::Unrolled | Architecture::Tables => 1,
             Architecture::Folded { rounds, .. } => rounds,
-            Architecture::Iterative => (self.iterations + 2).max(shift + 2),
+            Architecture::Iterative => (self.iterations + 2).max(shift + 1),
         }
     }
 }
 
 /// The least hardware that meets the throughput.
 fn architecture(cordic: &Cordic, magnitude_bits: u32) -> Architecture {
-    let iterative_clocks = (cordic.iterations + 2).max(if cordic.normalise { magnitude_bits + 2 } else { 0 });
+    let iterative_clocks = (cordic.iterations + 2).max(if cordic.normalise { magnitude_bits + 1 } else { 0 });
     match cordic.throughput {
         Throughput::CyclesPerPixel(1) => Architecture::Unrolled,
         Throughput::CyclesPerPixel(clocks) if clocks < iterative_clocks => {
