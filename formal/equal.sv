@@ -1,58 +1,67 @@
-// Two units with a valid/ready stream in and out give the same results in the same order: a miter that does not care when they do.
-// Both are offered every word; each takes it in its time, and the next is offered when both have.
+// Two units with a valid/ready stream in and out give the same result for the same word, whatever the words before and after
+// it are, and whenever words are offered and results taken: a miter that does not care when a result comes.
 `default_nettype none
 module properties (
   input  wire                  clk,
   input  wire                  reset,
-  input  wire                  offer,
-  input  wire [`WORD_BITS-1:0] word,
+  input  wire [`WORD_BITS-1:0] any_word,
+  input  wire                  any_place,
+  input  wire                  one_offer,
+  input  wire [`WORD_BITS-1:0] one_word,
+  input  wire                  one_take,
+  input  wire                  other_offer,
+  input  wire [`WORD_BITS-1:0] other_word,
+  input  wire                  other_take,
   output wire                  watched
 );
   reg started = 1'b0;
   always @(posedge clk) started <= 1'b1;
   wire rst_n = started && !reset;
 
-  // The word that is under way; one at a time, so that the slower unit sets the pace.
-  reg                  busy = 1'b0;
-  reg [`WORD_BITS-1:0] under_way;
-  reg                  one_took = 1'b0, other_took = 1'b0, one_gave = 1'b0, other_gave = 1'b0;
-  reg [`RESULT_BITS-1:0] one_result, other_result;
+  // One word is watched, at one place of the sequence; all others are whatever they like, of either unit.
+  reg [`WORD_BITS-1:0] word;
+  reg                  place;
+  always @(posedge clk) if (!started) begin
+    word  <= any_word;
+    place <= any_place;
+  end
 
   wire one_ready, other_ready, one_valid, other_valid;
   wire [`RESULT_BITS-1:0] one_data, other_data;
-  `ONE one (.clk_i(clk), .rst_ni(rst_n), .valid_i(busy && !one_took), .ready_o(one_ready), .data_i(under_way),
-            .valid_o(one_valid), .ready_i(!one_gave), .data_o(one_data));
-  `OTHER other (.clk_i(clk), .rst_ni(rst_n), .valid_i(busy && !other_took), .ready_o(other_ready), .data_i(under_way),
-                .valid_o(other_valid), .ready_i(!other_gave), .data_o(other_data));
+  reg [2:0] one_in = 3'd0, one_out = 3'd0, other_in = 3'd0, other_out = 3'd0;
+  one_unit one (
+    .clk_i(clk), .rst_ni(rst_n), .valid_i(one_offer), .ready_o(one_ready), .data_i(one_in == place ? word : one_word),
+    .valid_o(one_valid), .ready_i(one_take), .data_o(one_data)
+  );
+  other_unit other (
+    .clk_i(clk), .rst_ni(rst_n), .valid_i(other_offer), .ready_o(other_ready), .data_i(other_in == place ? word : other_word),
+    .valid_o(other_valid), .ready_i(other_take), .data_o(other_data)
+  );
 
-  wire both = one_gave && other_gave;
+  reg                    one_gave = 1'b0, other_gave = 1'b0;
+  reg [`RESULT_BITS-1:0] one_result, other_result;
+  wire one_due   = one_valid && one_take && one_out == place;
+  wire other_due = other_valid && other_take && other_out == place;
   always @(posedge clk) begin
-    if (!rst_n || both) begin
-      busy       <= 1'b0;
-      one_took   <= 1'b0;
-      other_took <= 1'b0;
-      one_gave   <= 1'b0;
-      other_gave <= 1'b0;
-    end else begin
-      if (!busy && offer) busy <= 1'b1;
-      if (busy && one_ready) one_took <= 1'b1;
-      if (busy && other_ready) other_took <= 1'b1;
-      if (one_valid && !one_gave) one_gave <= 1'b1;
-      if (other_valid && !other_gave) other_gave <= 1'b1;
-    end
-    if (!busy) under_way <= word;
-    if (one_valid && !one_gave) one_result <= one_data;
-    if (other_valid && !other_gave) other_result <= other_data;
+    // Counts stay where they are once the watched word is past, so that no other takes its place.
+    one_in    <= !rst_n ? 3'd0 : one_offer && one_ready && one_in != 3'd7 ? one_in + 3'd1 : one_in;
+    one_out   <= !rst_n ? 3'd0 : one_valid && one_take && one_out != 3'd7 ? one_out + 3'd1 : one_out;
+    other_in  <= !rst_n ? 3'd0 : other_offer && other_ready && other_in != 3'd7 ? other_in + 3'd1 : other_in;
+    other_out <= !rst_n ? 3'd0 : other_valid && other_take && other_out != 3'd7 ? other_out + 3'd1 : other_out;
+    one_gave   <= rst_n && (one_gave || one_due);
+    other_gave <= rst_n && (other_gave || other_due);
+    if (one_due) one_result <= one_data;
+    if (other_due) other_result <= other_data;
   end
 
-  wire [1:0] bad = {
-    rst_n && (one_valid && !one_took || other_valid && !other_took),  // 1 no result without a word
-    rst_n && both && one_result != other_result                      // 0 both give the same
+  wire [2:0] bad = {
+    rst_n && other_valid && other_in != 3'd7 && other_out >= other_in,  // 2 the other gives no more than it took
+    rst_n && one_valid && one_in != 3'd7 && one_out >= one_in,          // 1 one gives no more than it took
+    rst_n && one_gave && other_gave && one_result != other_result      // 0 both give the same
   };
-  reg [1:0] results = 2'd0;
-  always @(posedge clk) if (rst_n && both) results <= results + 2'd1;
-  wire [0:0] seen = {
-    results == 2'd3                                                   // 0 three results of both
+  wire [1:0] seen = {
+    rst_n && one_gave && other_gave && place && other_in == 3'd2 && one_in >= 3'd2,  // 1 a second word is compared
+    rst_n && one_gave && other_gave && one_result != 0                 // 0 a result that is not 0 is compared
   };
   assign watched = `WATCH;
 endmodule

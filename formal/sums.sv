@@ -1,7 +1,7 @@
-// Properties of the sums: for one pixel, whichever it is, what drains is the exact sum of weight times sample over all frames of
+// Properties of the sums: for one pixel, each in its own proof, what drains is the exact sum of weight times sample over all frames of
 // its set, computed here in words that cannot overflow; so no sum overflows, none is stale, and none is read before it is
-// written. Takes follow the framing's contract (proved of the framing): a pixel comes once a frame, at least
-// three clocks apart, in the order of steps, and while sums drain only in the first frame and behind the drain.
+// written. Takes follow the framing's contract (proved of the framing): pixels come in order, four a frame, with any pauses,
+// and while sums drain only in the first frame and behind the drain.
 `default_nettype none
 module properties (
   input  wire                    clk,
@@ -11,18 +11,16 @@ module properties (
   input  wire [1:0]              address,
   input  wire                    end_set,
   input  wire                    advance,
-  input  wire [1:0]              any_pixel,
   output wire                    watched
 );
-  localparam PIXELS = 4, FRAMES = `STEPS * `REPEATS, WIDE = 16;
+  localparam PIXELS = 4, FRAMES = `STEPS * `REPEATS, WIDE = 10;
 
   reg started = 1'b0;
   always @(posedge clk) started <= 1'b1;
   wire rst_n = started && !reset;
 
   // One pixel is watched.
-  reg [1:0] pixel;
-  always @(posedge clk) if (!started) pixel <= any_pixel;
+  wire [1:0] pixel = 2'd`PIXEL;
 
   // The frame that the stream is in, and the pixels that it has had.
   reg [4:0] frame = 5'd0;
@@ -31,13 +29,10 @@ module properties (
   wire      first_frame = frame == 0;
   wire      drain_busy;
   wire [2:0] drain_address;
-  // The stream takes pixels in order; pauses before a frame make a pixel's takes three clocks apart, as a sensor of 8 pixels does.
-  reg [1:0] rest = 2'd0;
-  wire allowed = !full && rest == 0 && (!drain_busy || first_frame && drain_address > next);
+  wire allowed = !full && (!drain_busy || first_frame && drain_address > next);
   wire taken   = rst_n && take && allowed;
   wire starts  = rst_n && full && end_set && !drain_busy;
   always @(posedge clk) begin
-    rest <= taken && next == PIXELS - 1 ? 2'd3 : rest == 0 ? 2'd0 : rest - 2'd1;
     if (!rst_n) begin
       frame <= 5'd0;
       next  <= 3'd0;
@@ -72,19 +67,19 @@ module properties (
   // The observer's own sums of the watched pixel, and those of the set before, which drain.
   reg signed [WIDE-1:0] in_phase, quadrature, offset, in_phase_due, quadrature_due, offset_due;
   reg saturated, saturated_due;
-  reg signed [WIDE-1:0] in_phase_weight, quadrature_weight, offset_weight;
+  reg signed [WIDE-1:0] in_phase_term, quadrature_term, offset_term;
+  wire signed [WIDE-1:0] code = {{(WIDE-`SAMPLE_BITS){1'b0}}, sample};
   always @(*) begin
     case (step)
 `WEIGHTS
     endcase
   end
-  wire signed [WIDE-1:0] code = {{(WIDE-`SAMPLE_BITS){1'b0}}, sample};
   wire mine = taken && next[1:0] == pixel;
   always @(posedge clk) begin
     if (mine) begin
-      in_phase   <= (first_frame ? 0 : in_phase) + in_phase_weight * code;
-      quadrature <= (first_frame ? 0 : quadrature) + quadrature_weight * code;
-      offset     <= (first_frame ? 0 : offset) + offset_weight * code;
+      in_phase   <= (first_frame ? 0 : in_phase) + in_phase_term;
+      quadrature <= (first_frame ? 0 : quadrature) + quadrature_term;
+      offset     <= (first_frame ? 0 : offset) + offset_term;
       saturated  <= (first_frame ? 1'b0 : saturated) || &sample;
     end
     if (starts) begin

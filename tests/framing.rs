@@ -1,5 +1,5 @@
-//! What no comparison of values shows: which silence ends a set, that a sample is taken every clock while the last set drains, and
-//! that any name makes a core.
+//! What no comparison of values shows: which silence ends a set, how long samples wait while the last set drains, and that any
+//! name makes a core.
 //!
 //! Figures are worked out by hand; the checks of speed are shown to fail on cores that are right but slow.
 
@@ -9,6 +9,7 @@ use support::small;
 use vuris::artifact::Artifact;
 use vuris::cosim::{Outcome, Simulator, Traffic, random_sets, silences, simulate};
 use vuris::hdl::{Golden, Scenario, Segment, Source};
+use vuris::model::turn;
 use vuris::spec::{PRESETS, Pipeline};
 
 const STRAIGHT: Traffic = Traffic { seed: 1, pause_percent: 0, stop_percent: 0 };
@@ -51,10 +52,14 @@ fn only_a_silence_longer_than_the_longest_pause_ends_a_set() {
     }
 }
 
-/// Clocks in which a sample had to wait at the three changes between four sets that follow each other at once.
+/// Sets that follow each other at once.
+fn four_sets(pipeline: &Pipeline) -> Vec<Segment> {
+    vec![Segment::of_sets("four sets", &random_sets(pipeline, 1, 4))]
+}
+
+/// Clocks in which a sample had to wait at the three changes between them.
 fn stalled_clocks(pipeline: &Pipeline, slow: Option<(&str, &str)>) -> u64 {
-    let segments = vec![Segment::of_sets("four sets", &random_sets(pipeline, 1, 4))];
-    run(pipeline, segments, Simulator::Verilator, &|artifacts| {
+    run(pipeline, four_sets(pipeline), Simulator::Verilator, &|artifacts| {
         let Some((text, instead)) = slow else { return };
         let framing = artifacts.iter_mut().find(|artifact| artifact.path.ends_with("_framing.v")).unwrap();
         assert_eq!(framing.text.matches(text).count(), 1, "{text}");
@@ -63,18 +68,39 @@ fn stalled_clocks(pipeline: &Pipeline, slow: Option<(&str, &str)>) -> u64 {
     .stalled_clocks
 }
 
+/// Right, but slow: the next set waits for the whole drain.
+const WAITS: Option<(&str, &str)> = Some(("behind = first_frame &&", "behind = 1'b0 &&"));
+
 /// At each change one clock commits the set and one reads the drain's first pixel. Everything else moves: a drain of 108 pixels
-/// beside a frame of 108 costs nothing.
+/// beside a frame of 108 costs nothing. A core that waits does so for the commit, 108 reads and the drain's end.
 #[test]
-fn a_sample_a_clock_is_taken_while_the_last_set_drains() {
-    for preset in PRESETS {
-        let pipeline = small(preset.name, |_| {});
-        let stalled = stalled_clocks(&pipeline, None);
-        println!("{}: {stalled} clocks stalled in 3 changes of set", preset.name);
-        assert_eq!(stalled, 3 * 2);
-        // Right, but slow: the next set waits for the whole drain.
-        let waiting = stalled_clocks(&pipeline, Some(("behind = first_frame &&", "behind = 1'b0 &&")));
-        assert!(waiting > 3 * 100, "a core that waits stalls for {waiting} clocks");
+fn with_a_pixel_a_clock_a_sample_a_clock_is_taken_while_the_last_set_drains() {
+    let pipeline = small("vuris-fast", |_| {});
+    assert_eq!(stalled_clocks(&pipeline, None), 3 * 2);
+    assert_eq!(stalled_clocks(&pipeline, WAITS), 3 * (1 + 108 + 1));
+}
+
+/// One iteration a clock is a pixel every 21 clocks, and the next set's first frame stays behind the drain. It is committed in
+/// clock 0; the first sums are taken in clock 3, their vector starts to turn in clock 4 or as many later as it needs places, and
+/// every other 21 clocks after the one before. The sums of pixel k are taken when pixel k - 1 starts; when those of pixel 105
+/// are, pixel 107 has been read, and with those of pixel 106 the drain ends, so that the second frame begins in the next clock,
+/// instead of clock 108. Of the frame before, 108 samples have come meanwhile, which a core that waits takes only then.
+#[test]
+fn with_one_iteration_a_clock_a_first_frame_follows_the_drain() {
+    for preset in ["vuris", "vuris-four-frame"] {
+        let pipeline = small(preset, |_| {});
+        let golden = Golden::new(&pipeline, &Scenario { segments: four_sets(&pipeline) });
+        let places: u64 = (0..3)
+            .map(|set| {
+                let sums = golden.records[set * 108].sums;
+                let shift = turn(&pipeline.derived().angle, sums.in_phase, sums.quadrature).shift;
+                u64::from(shift)
+            })
+            .sum();
+        println!("{preset}: {places} places");
+        let stalled = 3 * (4 + 105 * 21 + 1 - 108) + places;
+        assert_eq!(stalled_clocks(&pipeline, None), stalled, "{preset}");
+        assert_eq!(stalled_clocks(&pipeline, WAITS), stalled + 3 * 108, "{preset}");
     }
 }
 

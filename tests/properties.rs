@@ -82,7 +82,7 @@ fn true_amplitude(pipeline: &Pipeline, record: &PixelRecord) -> f64 {
     let (x, y) = (record.sums.in_phase as f64, record.sums.quadrature as f64);
     let gain = pipeline.modulation.scheme.gain * pipeline.modulation.frames_per_step as f64;
     let metric = pipeline.derived().angle.metric as f64;
-    x.hypot(metric.sqrt() * y) / gain as f64 * f64::from(pipeline.output.amplitude_fraction_bits).exp2()
+    x.hypot(metric.sqrt() * y) / gain * f64::from(pipeline.output.amplitude_fraction_bits).exp2()
 }
 
 /// Requires that `to` is `from` turned by `expected` codes, and as strong.

@@ -5,6 +5,7 @@
 mod accumulator;
 mod angle;
 mod bench;
+mod compared;
 mod control;
 mod golden;
 mod polar;
@@ -17,7 +18,8 @@ mod top;
 mod unwrapping;
 
 pub use angle::{AngleSource, angle_core_artifacts, angle_stimulus};
-pub use bench::{Channel, STAGES, VECTORS, bench_artifacts, channels, vector_artifacts};
+pub use bench::{bench_artifacts, vector_artifacts};
+pub use compared::{Channel, STAGES, VECTORS, channels};
 pub use golden::{Epoch, Golden, GoldenAccess, Rest, Scenario, Segment, StimulusWord};
 pub use top::{ResultField, result_bits, result_fields};
 

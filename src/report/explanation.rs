@@ -1,7 +1,8 @@
 //! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
 
+use super::angle_explanation::angle;
 use crate::hdl::{result_bits, result_fields};
-use crate::spec::{Architecture, Pipeline, REGISTER_BYTES, REGISTERS, SchemeOrigin, StageWord, Word, exact};
+use crate::spec::{Pipeline, REGISTER_BYTES, REGISTERS, SHARE_BITS, SchemeOrigin, Word, exact};
 use crate::units::unambiguous_range_m;
 use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
@@ -16,11 +17,11 @@ pub struct Section {
 }
 
 impl Section {
-    fn new(title: &'static str) -> Self {
+    pub(super) fn new(title: &'static str) -> Self {
         Self { title, rows: Vec::new() }
     }
 
-    fn row(&mut self, quantity: &str, value: impl ToString, why: impl ToString) {
+    pub(super) fn row(&mut self, quantity: &str, value: impl ToString, why: impl ToString) {
         self.rows.push([quantity.to_owned(), value.to_string(), why.to_string()]);
     }
 
@@ -39,14 +40,10 @@ fn word(word: Word) -> String {
 
 /// The tables of `pipeline`, in the order in which the data meets what they are about.
 pub fn sections(pipeline: &Pipeline) -> Vec<Section> {
-    vec![
-        input(pipeline),
-        accumulator(pipeline),
-        angle(pipeline),
-        output(pipeline),
-        registers(pipeline),
-        errors(pipeline),
-    ]
+    let mut sections = vec![input(pipeline), accumulator(pipeline), angle(pipeline), output(pipeline)];
+    sections.extend(unwrapping(pipeline));
+    sections.extend([registers(pipeline), errors(pipeline)]);
+    sections
 }
 
 /// The tables of `pipeline` as text.
@@ -154,80 +151,6 @@ fn accumulator(pipeline: &Pipeline) -> Section {
     section
 }
 
-fn angle(pipeline: &Pipeline) -> Section {
-    let (derived, cordic) = (pipeline.derived(), &pipeline.cordic);
-    let angle = &derived.angle;
-    let mut section = Section::new("angle unit");
-    section.row(
-        "architecture",
-        match angle.architecture {
-            Architecture::Unrolled => "unrolled".to_owned(),
-            Architecture::Folded { stages, rounds } => format!("a ring of {stages} stages, {rounds} rounds"),
-            Architecture::Iterative => "one iteration a clock".to_owned(),
-            Architecture::Tables => "tables and multipliers".to_owned(),
-        },
-        format!("a vector every {} clocks", angle.clocks_a_vector(0)),
-    );
-    section.row(
-        "metric",
-        angle.metric,
-        "the angle is that of (in-phase, sqrt(metric) x quadrature): no multiplier",
-    );
-    section.row(
-        "magnitudes",
-        format!("{} bits", angle.magnitude_bits),
-        "of both sums, without sign; a negative one is complemented",
-    );
-    section.row("shifts", format!("{:?}", angle.shifts), "together they reach every number of leading zeros");
-    section.row(
-        "normalised to",
-        format!("{} fraction bits", angle.fraction_bits),
-        format!(
-            "phase bits {} + vector guard bits {}; {}",
-            pipeline.output.phase_bits,
-            cordic.vector_guard_bits,
-            match (angle.pad_bits(), angle.drop_bits()) {
-                (pad, 0) => format!("{pad} bits appended, nothing lost"),
-                (_, drop) => format!("{drop} bits cut off"),
-            }
-        ),
-    );
-    let words = |words: &[StageWord]| {
-        let text = |word: &StageWord| format!("{}.{}", word.bits, word.fraction_bits);
-        match (words.first(), words.last()) {
-            (Some(first), Some(last)) => format!("{} to {}", text(first), text(last)),
-            _ => String::new(),
-        }
-    };
-    section.row("x, bits.fraction bits", words(&angle.stages.x), "from iteration 0 to the last, unsigned");
-    section.row("y, bits.fraction bits", words(&angle.stages.y), "from iteration 0 to the last, signed");
-    section.row(
-        "iterations",
-        angle.iterations,
-        format!("by atan sqrt(metric) / 2^i; x follows the first {}", angle.stages.x_iterations),
-    );
-    section.row(
-        "gain",
-        format!("{:.9}", exact::angle_gain_f64(angle.metric, angle.stages.x_iterations)),
-        "product of sqrt(1 + metric / 4^i), from i = 0, and the middle of what the last angles leave",
-    );
-    section.row("angle", format!("{} bits", angle.angle_bits), "phase bits and angle guard bits");
-    section.row(
-        "tables of angles",
-        angle.groups.len(),
-        "sums of the angles of a few iterations, by their directions",
-    );
-    section.row(
-        "latency",
-        format!("{} clocks", derived.latency_clocks),
-        format!(
-            "from a pixel's sums at the memory's output to its result: angle {}, amplitude, offset and distance 2, output 1",
-            angle.latency_clocks()
-        ),
-    );
-    section
-}
-
 fn output(pipeline: &Pipeline) -> Section {
     let (derived, output) = (pipeline.derived(), &pipeline.output);
     let mut section = Section::new("result");
@@ -256,13 +179,14 @@ fn output(pipeline: &Pipeline) -> Section {
             output.offset_fraction_bits
         ),
     );
+    let turns = derived.unwrapper.as_ref().map_or(1, |unwrapper| unwrapper.ratio[0]);
+    let frequency_hz = pipeline.modulation.frequency_hz / turns as f64;
     section.row(
         "distance factor",
         factor(derived.distance_factor),
         format!(
-            "{:.6} m a turn = c / (2 x {} Hz), in units of {} m",
-            unambiguous_range_m(pipeline.modulation.frequency_hz),
-            pipeline.modulation.frequency_hz,
+            "{:.6} m a turn = c / (2 x {frequency_hz} Hz), in units of {} m",
+            unambiguous_range_m(frequency_hz),
             output.distance_unit_m
         ),
     );
@@ -293,9 +217,68 @@ fn registers(pipeline: &Pipeline) -> Section {
     section
 }
 
+/// The unwrapping, where there is one.
+fn unwrapping(pipeline: &Pipeline) -> Option<Section> {
+    let unwrapper = pipeline.derived().unwrapper.as_ref()?;
+    let ([m, n], bits) = (unwrapper.ratio, unwrapper.phase_bits);
+    let frequency_hz = pipeline.modulation.frequency_hz;
+    let range_m = unambiguous_range_m(frequency_hz / m as f64);
+    let code_m = range_m / unwrapper.codes_a_turn as f64;
+    let phase_codes = pipeline.budget().phase_codes();
+    let margin = unwrapper.margin_codes();
+    let mut section = Section::new("unwrapping");
+    section.row(
+        "second frequency",
+        format!("{} MHz", frequency_hz * n as f64 / m as f64 / 1e6),
+        format!("{n}/{m} of the first, {} MHz", frequency_hz / 1e6),
+    );
+    section.row(
+        "unambiguous range",
+        format!("{range_m:.4} m"),
+        "c / (2 f0), f0 the frequencies' common divisor",
+    );
+    section.row(
+        "unwrapped phase",
+        word(unwrapper.unwrapped),
+        format!("turns of f0 / {} = {m} x {n} x 2^{bits}", unwrapper.codes_a_turn),
+    );
+    section.row(
+        "share of the second range",
+        format!("{} / 2^{SHARE_BITS}", unwrapper.share),
+        "its weight over the sum of both, rounded",
+    );
+    section.row(
+        "memory of phases",
+        format!("{} bits", (bits as usize + 1) * pipeline.geometry().pixels()),
+        format!("phase and flag, {} bits, x {} pixels", bits + 1, pipeline.geometry().pixels()),
+    );
+    section.row(
+        "margin",
+        format!("{margin:.1} codes, {:.1} mrad for noise", (margin - phase_codes) * code_mrad(pipeline)),
+        format!("2^{} / ({m} + {n}): both phases off by less have the right ambiguity number", bits - 1),
+    );
+    section.row(
+        "trusted residual",
+        format!("{} codes", unwrapper.residual_limit),
+        "residual_limit_turns; of N phase 1 - M phase 2 modulo a turn, either sign",
+    );
+    let error = unwrapper.error_codes(phase_codes);
+    section.row(
+        "worst-case error",
+        format!("{error:.3} codes = {:.2} um", error * code_m * 1e6),
+        "both phases' worst cases, weighted, and half a code of the mean",
+    );
+    Some(section)
+}
+
+/// A phase code in mrad.
+fn code_mrad(pipeline: &Pipeline) -> f64 {
+    1e3 * TAU / f64::from(pipeline.output.phase_bits).exp2()
+}
+
 fn errors(pipeline: &Pipeline) -> Section {
     let budget = pipeline.budget();
-    let code_mrad = 1e3 * TAU / f64::from(pipeline.output.phase_bits).exp2();
+    let code_mrad = code_mrad(pipeline);
     let mut section = Section::new("worst-case error");
     for contribution in &budget.phase {
         section.row(

@@ -36,27 +36,32 @@ impl std::fmt::Display for Answer {
     }
 }
 
-/// Asks for the bit `watch` of the property file `text` around the Verilog `files` in `folder`: at any time, or within `bound`
-/// clocks.
-pub(super) fn ask(
-    folder: &Path,
-    files: &[String],
-    text: &str,
-    watch: &str,
-    bound: Option<u32>,
-) -> Result<Answer> {
+/// A property file around a core.
+pub(super) struct Design {
+    /// The core's Verilog files.
+    pub files: Vec<String>,
+    /// Yosys commands that change parameters of their modules.
+    pub setup: String,
+    /// The property file.
+    pub text: String,
+}
+
+/// Asks for the bit `watch` of the `design` in `folder`: at any time, or within `bound` clocks.
+pub(super) fn ask(folder: &Path, design: &Design, watch: &str, bound: Option<u32>) -> Result<Answer> {
+    let Design { files, setup, text } = design;
     let properties = folder.join("properties.sv");
     std::fs::write(&properties, text).map_err(|error| Problem::io(&properties, "write", &error))?;
     // Registers without a reset start with anything; so does what nobody drives.
     let script = format!(
-        "read_verilog {}\nread_verilog -formal -sv -DWATCH={watch} properties.sv\nhierarchy -check -top properties\nproc\n\
+        "read_verilog {}\n{setup}read_verilog -formal -sv -DWATCH={watch} properties.sv\nhierarchy -check -top properties\nproc\n\
          flatten\nopt_clean\nmemory_map\nopt -full\nopt_clean -purge\ntechmap\nopt -fast\ndffunmap\nsimplemap\n\
          setundef -undriven -anyseq\naigmap\nopt_clean\nwrite_aiger -zinit circuit.aig\n",
         files.join(" ")
     );
     yosys(folder, &script)?;
     let question = match bound {
-        None => format!("pdr -T {PATIENCE_S}"),
+        // Registers that are always equal first become one.
+        None => format!("scorr; pdr -T {PATIENCE_S}"),
         Some(clocks) => format!("bmc3 -F {clocks} -T {PATIENCE_S}"),
     };
     let mut command = Command::new(find(ABC)?);

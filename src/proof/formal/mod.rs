@@ -56,13 +56,14 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
     let files: Vec<String> =
         rtl.iter().map(|file| file.path.clone()).filter(|path| path.ends_with(".v")).collect();
     let text = format!("{}{}", (proof.definitions)(pipeline), proof.text);
+    let design = engine::Design { files, setup: (proof.setup)(pipeline), text };
     let mut findings = Vec::new();
     for (list, cover) in [("bad", false), ("seen", true)] {
         // A design with a fault need not be covered.
         for (number, what) in proof.names(list).into_iter().filter(|_| !cover || fault.is_none()) {
             let watch = format!("{list}[{number}]");
             let bound = if cover { Some(proof.cover_clocks) } else { proof.bound_clocks };
-            let answer = engine::ask(temporary.path(), &files, &text, &watch, bound)?;
+            let answer = engine::ask(temporary.path(), &design, &watch, bound)?;
             findings.push(Finding { proof: proof.name, what, cover, answer });
         }
     }

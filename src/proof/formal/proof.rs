@@ -15,6 +15,8 @@ pub struct Proof {
     pub(super) text: &'static str,
     /// Macros that come before it.
     pub(super) definitions: fn(&Pipeline) -> String,
+    /// Yosys commands that change parameters of modules that the file does not instantiate itself.
+    pub(super) setup: fn(&Pipeline) -> String,
     /// Clocks after power-up to which the properties are proved; nothing: for ever.
     pub bound_clocks: Option<u32>,
     /// Clocks within which every cover must be reached.
@@ -30,6 +32,7 @@ pub const PROOFS: &[Proof] = &[
         definitions: |pipeline| {
             define("STREAM_REGISTER", format_args!("{}_stream_register", pipeline.prefix()))
         },
+        setup: nothing,
         bound_clocks: None,
         cover_clocks: 30,
     },
@@ -38,27 +41,37 @@ pub const PROOFS: &[Proof] = &[
         purpose: "a set that drains is whole and in sequence, whatever came before; counters; no sum is replaced before it has drained",
         text: include_str!("../../../formal/framing.sv"),
         definitions: framing,
+        setup: nothing,
         bound_clocks: None,
         cover_clocks: 120,
     },
-    Proof {
-        name: "sums",
-        purpose: "what drains is the exact sum of weight times sample: no overflow, nothing stale",
-        text: include_str!("../../../formal/sums.sv"),
-        definitions: sums,
-        // Three sets, one after the other, fit in.
-        bound_clocks: Some(100),
-        cover_clocks: 100,
-    },
+    sums_of_pixel("sums-0", |pipeline| sums(pipeline, 0)),
+    sums_of_pixel("sums-1", |pipeline| sums(pipeline, 1)),
+    sums_of_pixel("sums-2", |pipeline| sums(pipeline, 2)),
+    sums_of_pixel("sums-3", |pipeline| sums(pipeline, 3)),
     Proof {
         name: "pipeline",
         purpose: "the core's results keep the rules of AXI4-Stream; nothing lies between their fields; stalled clocks are counted",
         text: include_str!("../../../formal/pipeline.sv"),
         definitions: whole,
+        setup: nothing,
         bound_clocks: None,
         cover_clocks: 150,
     },
 ];
+
+/// The proof of one pixel's sums, of four.
+const fn sums_of_pixel(name: &'static str, definitions: fn(&Pipeline) -> String) -> Proof {
+    Proof {
+        name,
+        purpose: "what drains for a pixel is the exact sum of weight times sample: no overflow, nothing stale",
+        text: include_str!("../../../formal/sums.sv"),
+        definitions,
+        setup: small_memory,
+        bound_clocks: None,
+        cover_clocks: 80,
+    }
+}
 
 impl Proof {
     /// The bits of the file's list `bad` or `seen` and what they say, from the comments beside them.
@@ -76,6 +89,15 @@ impl Proof {
     }
 }
 
+fn nothing(_: &Pipeline) -> String {
+    String::new()
+}
+
+/// A memory of four pixels, as the proof's accumulator has; its words are wider than the proof's, and zero there.
+fn small_memory(pipeline: &Pipeline) -> String {
+    format!("chparam -set WORDS 4 -set ADDRESS_BITS 2 {}_sum_memory\n", pipeline.prefix())
+}
+
 fn define(name: &str, value: impl std::fmt::Display) -> String {
     format!("`define {name} {value}\n")
 }
@@ -89,24 +111,34 @@ fn framing(pipeline: &Pipeline) -> String {
 }
 
 /// Bits of a sample in the proof of the sums: the words are derived from it as the specification derives them from the ADC's.
-const SAMPLE_BITS: u32 = 2;
+const SAMPLE_BITS: u32 = 1;
 
-fn sums(pipeline: &Pipeline) -> String {
+/// Least and greatest in-phase, quadrature and offset sum of samples of [`SAMPLE_BITS`].
+fn sum_bounds(pipeline: &Pipeline) -> [(i64, i64); 3] {
     let scheme = &pipeline.modulation.scheme;
-    let frames = pipeline.modulation.frames_per_step as i64;
-    let scale = Word::unsigned(SAMPLE_BITS).max() * frames;
-    let bounds = |weights: &[i64]| {
+    let scale = Word::unsigned(SAMPLE_BITS).max() * pipeline.modulation.frames_per_step as i64;
+    [&scheme.in_phase, &scheme.quadrature, &scheme.offset].map(|weights| {
         let total = |sign: i64| weights.iter().filter(|&&weight| weight * sign > 0).sum::<i64>() * scale;
         (total(-1), total(1))
-    };
-    let bits = |(low, high)| Word::holding(low, high).bits;
-    let (in_phase, quadrature, offset) =
-        (bounds(&scheme.in_phase), bounds(&scheme.quadrature), bounds(&scheme.offset));
+    })
+}
+
+fn bits((low, high): (i64, i64)) -> u32 {
+    Word::holding(low, high).bits
+}
+
+fn sums(pipeline: &Pipeline, pixel: u32) -> String {
+    let scheme = &pipeline.modulation.scheme;
+    let [in_phase, quadrature, offset] = sum_bounds(pipeline);
     // What is kept in place of the sums has parameters of its own.
     let storage = &pipeline.derived().storage;
+    let scale = Word::unsigned(SAMPLE_BITS).max() * pipeline.modulation.frames_per_step as i64;
     let own = storage.sums.iter().filter(|_| !storage.is_plain());
     let kept: String = own
-        .map(|sum| format!(" .{}_BITS({}),", sum.name.to_uppercase(), bits(bounds(&sum.weights))))
+        .map(|sum| {
+            let bits = Word::holding(0, sum.weights.iter().sum::<i64>() * scale).bits;
+            format!(" .{}_BITS({bits}),", sum.name.to_uppercase())
+        })
         .collect();
     let steps = scheme.steps();
     let mut weights = String::new();
@@ -115,11 +147,12 @@ fn sums(pipeline: &Pipeline) -> String {
         // Writing into a string cannot fail.
         let _ = write!(
             weights,
-            " {step}: begin in_phase_weight = {i}; quadrature_weight = {q}; offset_weight = {o}; end"
+            " {step}: begin in_phase_term = {i} * code; quadrature_term = {q} * code; offset_term = {o} * code; end"
         );
     }
-    weights += " default: begin in_phase_weight = 0; quadrature_weight = 0; offset_weight = 0; end";
+    weights += " default: begin in_phase_term = 0; quadrature_term = 0; offset_term = 0; end";
     [
+        define("PIXEL", pixel),
         define("ACCUMULATOR", format_args!("{}_accumulator", pipeline.prefix())),
         define("SAMPLE_BITS", SAMPLE_BITS),
         define("IN_PHASE_BITS", bits(in_phase)),
@@ -128,7 +161,7 @@ fn sums(pipeline: &Pipeline) -> String {
         define("KEPT_PARAMETERS", kept),
         define("STEPS", steps),
         define("STEP_BITS", Word::holding(0, steps as i64 - 1).bits),
-        define("REPEATS", frames),
+        define("REPEATS", pipeline.modulation.frames_per_step),
         define("OFFSET_MAX", offset.1),
         define("IN_PHASE_MIN", format_args!("({})", in_phase.0)),
         define("QUADRATURE_MAX", quadrature.1),
