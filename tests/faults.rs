@@ -102,10 +102,10 @@ const PRESET_FAULTS: &[Faults] = &[
             Fault("sums that wait are read over", "if (read_i) read_1_q", "read_1_q"),
             Fault(
                 "a column read from the next one's place",
-                "read_data_o[39:36] = read_2_q",
-                "read_data_o[39:36] = read_0_q[3:0]",
+                "read_data_o[40:36] = read_2_q",
+                "read_data_o[40:36] = read_0_q[4:0]",
             ),
-            Fault("last column not written", "if (write_i) memory_3", "if (1'b0) memory_3"),
+            Fault("last column not written", "if (write_i) memory_2", "if (1'b0) memory_2"),
         ],
     ),
     (
@@ -231,7 +231,7 @@ const PRESET_FAULTS: &[Faults] = &[
     (
         "amplitude",
         &[
-            Fault("shifted a place too far", "6'd23", "6'd24"),
+            Fault("shifted a place too far", "6'd25", "6'd26"),
             Fault("amplitude cut off instead of rounded", "shifted[0]}", "1'b0}"),
         ],
     ),
