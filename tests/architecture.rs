@@ -763,10 +763,25 @@ fn unwieldy(sources: &[Source]) -> Vec<String> {
 /// Files of the model and templates of the hardware that have no counterpart.
 fn nouns_apart(model: &[&str], templates: &[&str]) -> Vec<String> {
     // The model's own: its list of files, and the stream that drives it.
-    const ONLY_MODEL: &[&str] = &["mod", "stream"];
-    // Parts of a module, registers that only time, and a file's first lines.
-    const ONLY_HARDWARE: &[&str] =
-        &["banner", "cordic_stage", "delay", "shift_stage", "stream_register", "sum_memory"];
+    const ONLY_MODEL: &[&str] = &["mod", "poly", "stream"];
+    // Parts of the angle unit, which the model has in one file; registers that only time; memories; a file's first lines.
+    const ONLY_HARDWARE: &[&str] = &[
+        "angle_iterative",
+        "angle_poly",
+        "banner",
+        "cordic_folded",
+        "cordic_unrolled",
+        "delay",
+        "normaliser",
+        "phase",
+        "phase_memory",
+        "poly_arctangent",
+        "poly_multiplier",
+        "poly_octant",
+        "poly_reciprocal",
+        "stream_register",
+        "sum_memory",
+    ];
     let apart = |ones: &[&str], others: &[&str], alone: &[&str], what: &str| -> Vec<String> {
         let missing = ones.iter().filter(|noun| !others.contains(noun) && !alone.contains(noun));
         missing.map(|noun| format!("{noun}: {what}")).collect()

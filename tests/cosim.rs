@@ -11,7 +11,7 @@ use support::{everything, small, specifications, two_at_a_time};
 use vuris::cosim::{Outcome, Simulation, Simulator, Traffic};
 use vuris::cosim::{corner_sets, faulty_stream, random_sets, resets};
 use vuris::frames::RawSets;
-use vuris::hdl::{Golden, Scenario, Segment, Source};
+use vuris::hdl::{Golden, Scenario, Segment, Source, channels};
 use vuris::model::{StreamEvent, turn};
 use vuris::spec::{Architecture, PRESETS, Pipeline, Rounding, Specification, Throughput};
 
@@ -106,7 +106,7 @@ fn extremes() -> Vec<(&'static str, Pipeline)> {
             s.cordic.vector_guard_bits = 8;
             s.cordic.angle_guard_bits = 8;
             s.output.phase_bits = 24;
-            s.output.amplitude_fraction_bits = 8;
+            s.output.amplitude_fraction_bits = 6;
             s.output.offset_fraction_bits = 8;
             s.output.distance_unit_m = 1e-7;
         }),
@@ -128,7 +128,7 @@ fn extremes() -> Vec<(&'static str, Pipeline)> {
             s.cordic.vector_guard_bits = 8;
             s.cordic.angle_guard_bits = 8;
             s.output.phase_bits = 24;
-            s.output.amplitude_fraction_bits = 8;
+            s.output.amplitude_fraction_bits = 6;
         }),
         row("a register every 2 moves", "vuris-fast", |s| s.cordic.pipeline_every = 2),
         row("a register every 5 moves, phase only, cut off", four_frame, |s| {
@@ -239,7 +239,9 @@ fn specifications_of_every_kind_agree_in_both_simulators() {
             let traffic = Traffic { seed, pause_percent, stop_percent };
             let values = Simulator::ALL
                 .map(|simulator| agree("any", &pipeline, &golden, simulator, &[traffic])[0].values);
-            assert_eq!(values[0], values[1], "both compare the same");
+            // Registers are read as often as there is time, which is not the same in both; every pixel's values are.
+            let pixels = (golden.records.len() * channels(&pipeline).len()) as u64;
+            assert!(values.iter().all(|&values| values >= pixels), "{values:?} of {pixels}");
             Ok(())
         })
         .unwrap();

@@ -245,7 +245,7 @@ fn a_surplus_file_of_an_earlier_run_is_found_and_removed() {
     let home = generated();
     let out = home.path().join("out");
     fs::copy(out.join("rtl/bench_accumulator.v"), out.join("rtl/bench_divider.v")).unwrap();
-    fs::copy(out.join("vectors/x.hex"), out.join("vectors/z.hex")).unwrap();
+    fs::copy(out.join("vectors/usable.hex"), out.join("vectors/z.hex")).unwrap();
     fs::copy(out.join("tb/harness.cpp"), out.join("tb/harness2.cpp")).unwrap();
     let found = ["surplus rtl/bench_divider.v", "surplus tb/harness2.cpp", "surplus vectors/z.hex"];
     assert_found_and_repaired(home.path(), &found);

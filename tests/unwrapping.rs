@@ -8,7 +8,7 @@ use support::{accepted, everything, small, two_at_a_time};
 use vuris::cosim::{Simulation, Simulator, Traffic, random_sets};
 use vuris::frames::RawSets;
 use vuris::hdl::{Golden, Scenario, Source};
-use vuris::model::{Beat, PipelineModel, PixelRecord, StreamEvent, Unwrapped, beats_of_set, unwrap};
+use vuris::model::{Beat, PipelineModel, PixelRecord, StreamEvent, Unwrapped, beats_of_set, unwrap_phases};
 use vuris::spec::{Pipeline, Specification, Unwrapper, Unwrapping};
 use vuris::units::unambiguous_range_m;
 
@@ -64,7 +64,7 @@ fn every_pair_of_phases_is_unwrapped_to_the_nearest_pair_of_ranges() {
                     ranges(first, m, n).flat_map(|one| ranges(second, n, m).map(move |two| (one, two)));
                 let apart = |&(one, two): &(f64, f64)| circular(one - two, turn);
                 let nearest = pairs.min_by(|a, b| apart(a).abs().total_cmp(&apart(b).abs())).unwrap();
-                let Unwrapped { residual, code, .. } = unwrap(unwrapper, first, second);
+                let Unwrapped { residual, code, .. } = unwrap_phases(unwrapper, first, second);
                 // Half a turn either way is as near: no answer is right.
                 if residual == -128 {
                     assert_eq!(apart(&nearest).abs(), 128.0);
@@ -106,7 +106,7 @@ fn errors_below_the_margin_leave_the_ambiguity_number_right_and_those_at_it_do_n
                 (-most..=most).flat_map(|e1| [(e1, -e1), (e1, e1), (e1, 0), (0, e1), (e1, most - e1.abs())])
             {
                 let ((first, off_1), (second, off_2)) = (phase(range, n, e1), phase(range, m, e2));
-                let unwrapped = unwrap(unwrapper, first, second);
+                let unwrapped = unwrap_phases(unwrapper, first, second);
                 let off = circular((unwrapped.code - range) as f64, turn as f64).abs();
                 let bound = unwrapper.error_codes(off_1.abs().max(off_2.abs()));
                 if off_1.abs().max(off_2.abs()) < margin {

@@ -101,7 +101,7 @@ pub(super) fn amplitude(source: &Source, banner: String) -> askama::Result<Strin
         spare_bits: product_bits > derived.amplitude.bits + 1,
         product: product(
             pipeline.output.multipliers,
-            &format!("{{{{FACTOR_BITS{{1'b0}}}}, x_i}}"),
+            "{{FACTOR_BITS{1'b0}}, x_i}",
             product_bits,
             factor.multiplier,
         ),

@@ -60,7 +60,7 @@ pub(super) fn unwrapping(source: &Source, banner: String) -> askama::Result<Stri
         let phase =
             |factor: i64| (((part * factor) << phase_bits) / whole) & Word::unsigned(phase_bits).max();
         let (first, second) = (phase(m), phase(n));
-        let unwrapped = model::unwrap(unwrapper, first, second);
+        let unwrapped = model::unwrap_phases(unwrapper, first, second);
         [first, second, unwrapped.ambiguity, unwrapped.residual, unwrapped.code]
             .map(|value| value.to_string())
             .to_vec()

@@ -27,4 +27,4 @@ pub use poly::{poly, poly_arctangent, poly_reciprocal};
 pub use registers::{Access, Answer, ReadData, Registers};
 pub use sequencer::{NextFrame, next_frame};
 pub use stream::{Beat, StreamEvent, beats_of_set};
-pub use unwrapping::{PhaseMemory, Unwrapped, unwrap};
+pub use unwrapping::{PhaseMemory, Unwrapped, unwrap_phases};

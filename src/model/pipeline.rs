@@ -90,7 +90,7 @@ impl<'a> PipelineModel<'a> {
             self.accumulator.sums().iter().map(|&sums| pixel(self.pipeline, sums)).collect();
         if let Some(memory) = &mut self.phase_memory {
             for (address, record) in set.iter_mut().enumerate() {
-                let unwrapped = memory.unwrap(address, record.phase, record.valid, second, partner);
+                let unwrapped = memory.unwrap_pixel(address, record.phase, record.valid, second, partner);
                 record.unambiguous = unwrapped.is_some();
                 record.unwrapped = unwrapped.unwrap_or(0);
                 record.distance = distance(self.pipeline, record.unwrapped);

@@ -15,7 +15,7 @@ pub struct Unwrapped {
 }
 
 /// Combines `first`, the phase at M f0, and `second`, that at N f0.
-pub fn unwrap(unwrapper: &Unwrapper, first: i64, second: i64) -> Unwrapped {
+pub fn unwrap_phases(unwrapper: &Unwrapper, first: i64, second: i64) -> Unwrapped {
     let [m, n] = unwrapper.ratio;
     let bits = unwrapper.phase_bits;
     let difference = n * first - m * second;
@@ -54,7 +54,7 @@ impl<'a> PhaseMemory<'a> {
     /// The unwrapped phase of pixel `address`, whose phase in the present set, of the second frequency where `second`, is
     /// `phase`; `None` where there is none: where the set before is not the `partner` of this one, where either phase is not
     /// `usable`, or the residual is beyond the limit. Keeps the phase for the next set.
-    pub fn unwrap(
+    pub fn unwrap_pixel(
         &mut self,
         address: usize,
         phase: i64,
@@ -64,7 +64,7 @@ impl<'a> PhaseMemory<'a> {
     ) -> Option<i64> {
         let before = std::mem::replace(&mut self.kept[address], Kept { phase, usable });
         let (first_phase, second_phase) = if second { (before.phase, phase) } else { (phase, before.phase) };
-        let unwrapped = unwrap(self.unwrapper, first_phase, second_phase);
+        let unwrapped = unwrap_phases(self.unwrapper, first_phase, second_phase);
         let trusted = unwrapped.residual.abs() <= self.unwrapper.residual_limit;
         (partner && usable && before.usable && trusted).then_some(unwrapped.code)
     }

@@ -19,10 +19,10 @@ pub struct Timing {
     pub most_shifts: u64,
     /// From the clock in which a set's last sample is taken to the one in which its first result is offered, when the stream
     /// then stays silent: the sample's register 1, the longest pause and one clock beyond it, the set's end 1, the read of the sums
-    /// 1, and the latency.
+    /// 1, their forming 1, and the latency.
     pub silence_to_first_result: u64,
     /// From the clock in which the next frame's first sample is taken, where that follows sooner: the sample's register 1, the
-    /// set's end 1, the read of the sums 1, and the latency.
+    /// set's end 1, the read of the sums 1, their forming 1, and the latency.
     pub next_frame_to_first_result: u64,
 }
 
@@ -46,8 +46,8 @@ impl Timing {
             clocks_a_burst: u64::from(results_a_burst) * u64::from(rounds),
             most_clocks_a_result: angle.clocks_a_vector(most_shifts).into(),
             most_shifts: most_shifts.into(),
-            silence_to_first_result: 1 + u64::from(pipeline.sensor.line_blanking_clocks) + 1 + 2 + latency,
-            next_frame_to_first_result: 1 + 2 + latency,
+            silence_to_first_result: 1 + u64::from(pipeline.sensor.line_blanking_clocks) + 1 + 3 + latency,
+            next_frame_to_first_result: 1 + 3 + latency,
         }
     }
 

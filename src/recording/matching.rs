@@ -6,13 +6,12 @@
 //! nothing to a phase, so whoever reads the phase adds the offset.
 
 use super::Recording;
+use super::plain_dft::dft_of;
 use crate::problem::{Problem, Result};
 use crate::spec::{
-    COEFFICIENT_BITS, DFT_FRAMES, Modulation, Pipeline, SCHEMES, Scheme, Specification, Word,
-    normalised_order, scheme,
+    DFT_FRAMES, Modulation, Pipeline, SCHEMES, Scheme, Specification, Word, normalised_order, scheme,
 };
 use crate::units::wrap_rad;
-use std::f64::consts::TAU;
 
 /// Steps that differ by less, modulo 2π, are the same, rad. Steps written with five digits are (1.5708), and what is then
 /// left in the phase, under 0.1 mrad, is below any camera's noise; a step that is really wrong is off by more.
@@ -106,7 +105,7 @@ fn shown_scheme(scheme: &Scheme) -> String {
 
 /// What a recording's phase steps say.
 #[derive(Debug, Clone, PartialEq)]
-struct Steps {
+pub(super) struct Steps {
     scheme: Scheme,
     /// Consecutive frames of one step.
     frames_per_step: usize,
@@ -161,28 +160,12 @@ fn steps_of(recording: &Recording, base: &Pipeline, choice: SchemeChoice) -> Res
     }
 }
 
-/// Part of a phase code that rounding a DFT's cosines and sines may cost, where nobody has said with how many bits.
-const COEFFICIENT_SHARE: f64 = 1.0 / 4.0;
-
-/// The plain DFT whose steps `steps_rad` are, in any order, with as few bits a coefficient as keep their rounding below
-/// [`COEFFICIENT_SHARE`] of a phase code of `base` (or all, where none do).
-fn dft_of(steps_rad: &[f64], base: &Pipeline) -> Option<Scheme> {
-    let code_rad = TAU / f64::from(base.output.phase_bits).exp2();
-    let all_bits = *COEFFICIENT_BITS.end();
-    let steps = DFT_FRAMES.filter(|&steps| steps_rad.len().is_multiple_of(steps)).find(|&steps| {
-        Scheme::dft(steps, all_bits).is_some_and(|dft| matched(&dft, &base.modulation, steps_rad).is_some())
-    })?;
-    let dft = |coefficient_bits| Scheme::dft(steps, coefficient_bits);
-    let exact = |scheme: &Scheme| scheme.weight_error_rad <= COEFFICIENT_SHARE * code_rad;
-    COEFFICIENT_BITS.filter_map(dft).find(exact).or_else(|| dft(all_bits))
-}
-
 /// How `steps_rad` are the steps of `scheme`, each held for the same number of consecutive frames.
 ///
 /// Steps that are whole turns apart look the same (the first and the fourth of the WDFT do). Then the specified order decides, where
 /// the frames can have it, and else each place has the lowest step that is left: of steps that look the same, the earlier frame has
 /// the lower one.
-fn matched(scheme: &Scheme, specified: &Modulation, steps_rad: &[f64]) -> Option<Steps> {
+pub(super) fn matched(scheme: &Scheme, specified: &Modulation, steps_rad: &[f64]) -> Option<Steps> {
     let frames_per_step = steps_rad.len() / scheme.steps();
     if frames_per_step == 0 || !steps_rad.len().is_multiple_of(scheme.steps()) {
         return None;
@@ -221,6 +204,7 @@ mod tests {
     use super::*;
     use crate::frames::{Geometry, RawSets};
     use crate::recording::Camera;
+    use crate::recording::plain_dft::COEFFICIENT_SHARE;
     use crate::recording::{Kind, SetRow};
     use std::f64::consts::{FRAC_PI_2, TAU};
     use std::path::PathBuf;

@@ -12,6 +12,7 @@ mod frame_times;
 mod kind;
 pub mod matching;
 mod npy;
+mod plain_dft;
 mod sets;
 mod staging;
 mod table;

@@ -1,5 +1,6 @@
 //! Results as a person reads them: tables, and pictures of plain numbers.
 
+mod angle_explanation;
 mod colour_map;
 mod error_maps;
 mod explanation;

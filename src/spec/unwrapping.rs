@@ -114,7 +114,7 @@ impl Unwrapper {
                 .expected("a number above 0, of a phase code or more, to 0.5, which trusts every residual"));
         }
         let largest = Word::unsigned(phase_bits).max();
-        let codes_a_turn = m * n << phase_bits;
+        let codes_a_turn = (m * n) << phase_bits;
         // k1 = −e/N modulo M: N k1 ≡ −e modulo M, with k1 from 0 to M − 1.
         let whole_turns = (-m..=n)
             .map(|e| (0..m).map(|k1| n * k1).find(|turns| (turns + e).rem_euclid(m) == 0).unwrap_or(0))

@@ -124,7 +124,15 @@ impl Baseline {
     /// Reads the file at `path`, if there is one.
     pub fn read(path: &Path) -> Result<Option<Self>> {
         let text = match std::fs::read_to_string(path) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            // Below what is no folder there is no file either; writing there will say so.
+            Err(error)
+                if matches!(
+                    error.kind(),
+                    std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory
+                ) =>
+            {
+                return Ok(None);
+            }
             Err(error) => return Err(Problem::io(path, "read", &error)),
             Ok(text) => text,
         };

@@ -37,8 +37,8 @@ impl AngleCore {
         let phase_bits = output.integer("phase_bits", 4..=24)? as u32;
         let (atan, cordic) = read_atan(&top, phase_bits)?;
         let specification = AngleSpecification {
-            x_bits: vector.integer("x_bits", 2..=40)? as u32,
-            y_bits: vector.integer("y_bits", 2..=40)? as u32,
+            x_bits: vector.integer("x_bits", 2..=56)? as u32,
+            y_bits: vector.integer("y_bits", 2..=56)? as u32,
             metric: vector.integer_or("metric", 1..=3, 1)?,
             atan,
             cordic,

@@ -85,9 +85,9 @@ pub enum Atan {
 /// What an angle unit is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AngleSpecification {
-    /// Bits of x, signed, 2 to 40.
+    /// Bits of x, signed, 2 to 56.
     pub x_bits: u32,
-    /// Bits of y, signed, 2 to 40.
+    /// Bits of y, signed, 2 to 56.
     pub y_bits: u32,
     /// 1 or 3: the angle is that of the vector (x, √metric · y).
     pub metric: i64,
@@ -314,8 +314,8 @@ fn check(source: &str, specification: &AngleSpecification) -> Result<()> {
         Throughput::OneIterationAClock => 1,
     };
     let limits: [(&str, u32, std::ops::RangeInclusive<u32>); 9] = [
-        ("vector.x_bits", *x_bits, 2..=40),
-        ("vector.y_bits", *y_bits, 2..=40),
+        ("vector.x_bits", *x_bits, 2..=56),
+        ("vector.y_bits", *y_bits, 2..=56),
         ("output.phase_bits", *phase_bits, 4..=24),
         ("output.length_bits", *length_bits, 0..=32),
         ("cordic.iterations", cordic.iterations, 4..=30),
