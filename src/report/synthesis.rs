@@ -183,24 +183,31 @@ fn peer_notes() -> String {
     notes.into_iter().map(|note| format!("- {}.\n", line(note))).collect()
 }
 
-/// Mean errors by octave of the length, where they were measured.
-fn bias_table(targets: &[Measured]) -> String {
-    let mut rows: Vec<[String; 3]> = Vec::new();
+/// Codes from which the mean error is summed up.
+const BIAS_FROM_CODES: u32 = 16;
+
+/// Mean errors by octave of the length, where they were measured: what is largest for each core, then all.
+fn bias(targets: &[Measured]) -> String {
+    let (mut summary, mut rows) = (String::new(), Vec::new());
     for target in targets {
-        for mean in target.accuracy.iter().flat_map(|accuracy| &accuracy.means) {
+        let Some(accuracy) = &target.accuracy else { continue };
+        if let Some(largest) = accuracy.largest_mean_from(BIAS_FROM_CODES) {
+            let _ = writeln!(
+                summary,
+                "- {}: at most {largest:.4} in every octave from {BIAS_FROM_CODES} codes up ({} vectors)",
+                target.name, accuracy.vectors
+            );
+        }
+        for mean in &accuracy.means {
             let from = 1_u64 << mean.octave.min(63);
-            rows.push([
-                target.name.clone(),
-                format!("{from} to {}", 2 * u128::from(from)),
-                format!("{:+.4}", mean.mean),
-            ]);
+            let codes = format!("{from} to {}", 2 * u128::from(from));
+            rows.push([target.name.clone(), codes, format!("{:+.4}", mean.mean)]);
         }
     }
     if rows.is_empty() {
-        String::new()
-    } else {
-        table(["core", "length, codes", "mean error, 2^-16 turn"], &rows)
+        return String::new();
     }
+    format!("{summary}\n{}", table(["core", "length, codes", "mean error, 2^-16 turn"], &rows))
 }
 
 /// The whole of `synthesis.md`.
@@ -225,7 +232,7 @@ pub fn synthesis(baseline: &Baseline) -> String {
     for target in &baseline.targets {
         let _ = writeln!(text, "- {}: {}.{}", target.name, target.purpose, longest_paths(target));
     }
-    let bias = bias_table(&baseline.targets);
+    let bias = bias(&baseline.targets);
     if !bias.is_empty() {
         let _ = write!(text, "\n## Mean error\n\n{bias}");
     }
