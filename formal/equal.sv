@@ -66,7 +66,7 @@ module properties (
     rst_n && calm && one_gave && other_gave && one_result != other_result  // 0 both give the same
   };
   wire [1:0] seen = {
-    rst_n && calm && one_gave && other_gave && place && other_in == 3'd2 && one_in >= 3'd2,  // 1 a second word is compared
+    rst_n && calm && one_gave && other_gave && place,  // 1 a second word is compared
     rst_n && calm && one_gave && other_gave && one_result != 0               // 0 a result that is not 0 is compared
   };
   assign watched = `WATCH;

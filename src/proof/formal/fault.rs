@@ -148,7 +148,13 @@ pub const FAULTS: &[Fault] = &[
         "!s_axis_tready",
     ),
     fault("folded", "other_cordic", "a vector overwrites one in the ring", "advance_i && !back", "advance_i"),
-    fault("iterative", "other_angle", "a vector waits for a turn only once", "wait_valid_q <= valid_i || !ready_o;", "wait_valid_q <= valid_i;"),
+    fault(
+        "iterative",
+        "other_angle",
+        "a vector waits for a turn only once",
+        "wait_valid_q <= valid_i || !ready_o;",
+        "wait_valid_q <= valid_i;",
+    ),
     fault("pipeline", "pipeline", "a bit between the fields", "7'd0,", "7'd1,"),
 ];
 
