@@ -32,7 +32,8 @@ module [[ prefix ]]_registers #(
   output wire [31:0]             rdata_o,                // the data
   output wire [1:0]              rresp_o,                // OKAY or SLVERR
 [%- for setting in settings %]
-  output wire [31:0]             [[ setting.name ]]_o,     // [[ setting.meaning ]]
+  // [[ setting.meaning ]]
+  output wire [31:0]             [[ setting.name ]]_o,
 [%- endfor %]
   input  wire [31:0]             sets_done_i,            // complete sets since reset
   input  wire [31:0]             sets_discarded_i,       // discarded sets since reset

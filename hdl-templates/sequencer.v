@@ -31,7 +31,7 @@ module [[ prefix ]]_sequencer #(
   output wire [PHASE_BITS-1:0] next_phase_o    // its phase step, turns / 2^PHASE_BITS
 );
 
-  function [STEP_BITS-1:0] step_at(input [STEP_BITS-1:0] place);
+  function automatic [STEP_BITS-1:0] step_at(input reg [STEP_BITS-1:0] place);
 [%- if ascending %]
     step_at = place;
 [%- else %]
@@ -43,7 +43,7 @@ module [[ prefix ]]_sequencer #(
 [%- endif %]
   endfunction
 
-  function [PHASE_BITS-1:0] phase_of(input [STEP_BITS-1:0] step);
+  function automatic [PHASE_BITS-1:0] phase_of(input reg [STEP_BITS-1:0] step);
     case (step)
 [%- for row in phases %]
       [[ row.label ]]: phase_of = [[ row.value ]];

@@ -219,7 +219,7 @@ module testbench;
 [%- if bench.registers %]
 
   // An answer of the core to access number `answer`.
-  task answered(input is_write, input [1:0] response, input [31:0] data);
+  task automatic answered(input reg is_write, input reg [1:0] response, input reg [31:0] data);
     begin
       idle = 0;
       head = accesses[3*answer];
@@ -388,7 +388,8 @@ module testbench;
           if (m_axis_tuser !== (pixel == 0)) report("output.first", record[ [[- stage.number -]] ], pixel == 0, m_axis_tuser);
           if (m_axis_tlast !== (pixel % WIDTH == WIDTH - 1))
             report("output.last", record[ [[- stage.number -]] ], pixel % WIDTH == WIDTH - 1, m_axis_tlast);
-          if ((m_axis_tdata & [[ bench.padding ]]) !== [[ bench.result_bits ]]'d0) report("output.padding", record[ [[- stage.number -]] ], 64'd0, 64'd1);
+          if ((m_axis_tdata & [[ bench.padding ]]) !== [[ bench.result_bits ]]'d0)
+            report("output.padding", record[ [[- stage.number -]] ], 64'd0, 64'd1);
           compared = compared + 2;
           saturated_pixels = saturated_pixels + expected_saturated[record[ [[- stage.number -]] ]];
           if (pixel == 0) set_number = set_number + 1;
@@ -410,7 +411,8 @@ module testbench;
       rest     = rest + 1;
     end
 
-    if (!finished && ((word == STIMULUS && wait_for == 0 && !resting && answer == due) || idle > PATIENCE || mismatches > LIMIT)) begin
+    if (!finished && ((word == STIMULUS && wait_for == 0 && !resting && answer == due) ||
+        idle > PATIENCE || mismatches > LIMIT)) begin
       finished = 1'b1;
       for (stage = 0; stage < STAGES; stage = stage + 1) begin
         if (record[stage] < RECORDS) begin

@@ -160,7 +160,7 @@ fn extremes() -> Vec<(&'static str, Pipeline)> {
         }),
         row("a ring of one stage", wdft, |s| {
             s.cordic.iterations = 12;
-            s.cordic.throughput = Throughput::CyclesPerPixel(16);
+            s.cordic.throughput = Throughput::CyclesPerPixel(13);
         }),
         row("one iteration a clock, phase only, not normalised", four_frame, |s| {
             s.cordic.normalise = false;

@@ -124,13 +124,17 @@ fn every_practice_campaign_is_ranged() {
 
 /// A recording without encoder, camera or mask, with many frames a set and a table of their times.
 #[test]
-fn a_real_recording_of_many_frames_is_read_and_its_steps_refused() {
+fn a_real_recording_of_many_frames_is_read_and_taken_as_a_plain_dft() {
     let Some(real) = recordings("real/flimfast") else { return };
     let recording = Recording::open(&real).unwrap();
     assert_eq!((recording.raw.sets(), recording.raw.frames_per_set()), (1, 32));
     assert_eq!((recording.sets[0].position_m, recording.camera.is_none()), (None, true));
     assert_eq!(recording.frame_time_s(0, 2), Some(0.271));
     let base = Pipeline::named("vuris").unwrap();
-    let refusal = pipeline_for(&recording, &base, SchemeChoice::Auto).unwrap_err().to_string();
-    assert!(refusal.contains("32 frames"), "{refusal}");
+    let (pipeline, _) = pipeline_for(&recording, &base, SchemeChoice::Auto).unwrap();
+    let scheme = &pipeline.modulation.scheme;
+    assert_eq!((scheme.name.as_ref(), scheme.steps()), ("dft", 32));
+    for (step, commanded_rad) in recording.steps_rad.iter().enumerate() {
+        assert!((scheme.angle_rad(step) - commanded_rad).abs() < 1e-4, "step {step}");
+    }
 }

@@ -255,9 +255,13 @@ fn no_register_leaves_its_word_at_any_corner() {
     let mut corners = 0;
     for preset in PRESETS.iter().map(|preset| preset.name).filter(|name| *name != "vuris-fast") {
         for (cordic, amplitude) in cordics().iter().flat_map(|cordic| [(cordic, true), (cordic, false)]) {
-            for (adc_bits, frames_per_step, phase_bits, guard_bits) in
-                [(12, 1, 18, 4), (8, 1, 8, 0), (16, 256, 24, 8), (16, 256, 8, 0), (9, 3, 13, 1)]
-            {
+            for (adc_bits, frames_per_step, phase_bits, guard_bits, fraction_bits) in [
+                (12, 1, 18, 4, 8),
+                (8, 1, 8, 0, 8),
+                (16, 256, 24, 8, 2),
+                (16, 256, 8, 0, 8),
+                (9, 3, 13, 1, 8),
+            ] {
                 let pipeline = small(preset, |specification| {
                     specification.sensor.adc_bits = adc_bits;
                     specification.modulation.frames_per_step = frames_per_step;
@@ -266,7 +270,7 @@ fn no_register_leaves_its_word_at_any_corner() {
                     specification.cordic.vector_guard_bits = guard_bits;
                     specification.output.phase_bits = phase_bits;
                     specification.output.amplitude = amplitude;
-                    specification.output.amplitude_fraction_bits = 8;
+                    specification.output.amplitude_fraction_bits = fraction_bits;
                     specification.output.offset_fraction_bits = 8;
                     specification.output.distance_unit_m = 1e-4;
                 });

@@ -44,7 +44,8 @@ module vuris_registers #(
   input  wire                    rready_i,               // it is taken
   output wire [31:0]             rdata_o,                // the data
   output wire [1:0]              rresp_o,                // OKAY or SLVERR
-  output wire [31:0]             frequency_factor_o,     // modulation frequency as a multiple of the modulation hardware's unit; drives frequency_factor_o
+  // modulation frequency as a multiple of the modulation hardware's unit; drives frequency_factor_o
+  output wire [31:0]             frequency_factor_o,
   input  wire [31:0]             sets_done_i,            // complete sets since reset
   input  wire [31:0]             sets_discarded_i,       // discarded sets since reset
   input  wire [31:0]             stall_clocks_i,         // clocks since reset in which a raw sample waited

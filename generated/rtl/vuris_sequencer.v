@@ -36,11 +36,11 @@ module vuris_sequencer #(
   output wire [PHASE_BITS-1:0] next_phase_o    // its phase step, turns / 2^PHASE_BITS
 );
 
-  function [STEP_BITS-1:0] step_at(input [STEP_BITS-1:0] place);
+  function automatic [STEP_BITS-1:0] step_at(input reg [STEP_BITS-1:0] place);
     step_at = place;
   endfunction
 
-  function [PHASE_BITS-1:0] phase_of(input [STEP_BITS-1:0] step);
+  function automatic [PHASE_BITS-1:0] phase_of(input reg [STEP_BITS-1:0] step);
     case (step)
       3'd0: phase_of = 16'd0;
       3'd1: phase_of = 16'd21845;

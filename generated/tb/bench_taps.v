@@ -89,7 +89,7 @@ module bench_taps (
     .next_frame_phase_o (next_frame_o[15:0])
   );
 
-  assign padding_o = |(m_axis_tdata & 88'b1111110011111000000000000000000000000000000000000000000000000000111111000000000000000000);
+  assign padding_o = |(m_axis_tdata & 88'hfcf8000000000000fc0000);
 
   // accumulator
   assign strobe_o[0] = dut.sums_valid && dut.sums_taken;

@@ -222,7 +222,7 @@ module testbench;
   endtask
 
   // An answer of the core to access number `answer`.
-  task answered(input is_write, input [1:0] response, input [31:0] data);
+  task automatic answered(input reg is_write, input reg [1:0] response, input reg [31:0] data);
     begin
       idle = 0;
       head = accesses[3*answer];
@@ -450,7 +450,8 @@ module testbench;
           if (m_axis_tuser !== (pixel == 0)) report("output.first", record[3], pixel == 0, m_axis_tuser);
           if (m_axis_tlast !== (pixel % WIDTH == WIDTH - 1))
             report("output.last", record[3], pixel % WIDTH == WIDTH - 1, m_axis_tlast);
-          if ((m_axis_tdata & 88'b1111110011111000000000000000000000000000000000000000000000000000111111000000000000000000) !== 88'd0) report("output.padding", record[3], 64'd0, 64'd1);
+          if ((m_axis_tdata & 88'hfcf8000000000000fc0000) !== 88'd0)
+            report("output.padding", record[3], 64'd0, 64'd1);
           compared = compared + 2;
           saturated_pixels = saturated_pixels + expected_saturated[record[3]];
           if (pixel == 0) set_number = set_number + 1;
@@ -470,7 +471,8 @@ module testbench;
       rest     = rest + 1;
     end
 
-    if (!finished && ((word == STIMULUS && wait_for == 0 && !resting && answer == due) || idle > PATIENCE || mismatches > LIMIT)) begin
+    if (!finished && ((word == STIMULUS && wait_for == 0 && !resting && answer == due) ||
+        idle > PATIENCE || mismatches > LIMIT)) begin
       finished = 1'b1;
       for (stage = 0; stage < STAGES; stage = stage + 1) begin
         if (record[stage] < RECORDS) begin

@@ -96,8 +96,10 @@ fn padding(pipeline: &Pipeline) -> String {
     let bits = result_bits(pipeline);
     let fields = result_fields(pipeline);
     let within = |bit: u32| fields.iter().any(|field| (field.low..field.low + field.bits).contains(&bit));
-    let ones: String = (0..bits).rev().map(|bit| if within(bit) { '0' } else { '1' }).collect();
-    format!("{bits}'b{ones}")
+    let digit =
+        |digit: u32| (0..4).filter(|&bit| !within(4 * digit + bit)).map(|bit| 1_u32 << bit).sum::<u32>();
+    let digits: String = (0..bits.div_ceil(4)).rev().map(|number| format!("{:x}", digit(number))).collect();
+    format!("{bits}'h{digits}")
 }
 
 fn bench(source: &Source, golden: &Golden) -> Bench {

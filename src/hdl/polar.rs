@@ -11,19 +11,23 @@ fn factor_bits(factor: ScaledConstant) -> u32 {
     Word::holding(0, factor.multiplier).bits
 }
 
+/// Terms of a sum that stand in a line.
+const TERMS_A_LINE: usize = 5;
+
 /// `operand` of `bits` bits times the constant `multiplier`, modulo 2^bits.
 fn product(kind: Multipliers, operand: &str, bits: u32, multiplier: i64) -> String {
     if kind == Multipliers::Dsp {
         return format!("{operand} * {}", literal(bits, multiplier));
     }
     let mut text = String::new();
-    for (place, digit) in signed_digits(multiplier).into_iter().rev() {
+    for (number, (place, digit)) in signed_digits(multiplier).into_iter().rev().enumerate() {
         let term = if place == 0 { operand.to_owned() } else { format!("({operand} << {place})") };
+        let space = if number % TERMS_A_LINE == 0 { "\n        " } else { " " };
         // The highest digit of a positive number is positive.
         match (text.is_empty(), digit) {
             (true, _) => text = term,
-            (false, 1) => text += &format!(" + {term}"),
-            (false, _) => text += &format!(" - {term}"),
+            (false, 1) => text += &format!("{space}+ {term}"),
+            (false, _) => text += &format!("{space}- {term}"),
         }
     }
     text
