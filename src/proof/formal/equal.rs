@@ -17,6 +17,9 @@ const PHASE_BITS: u32 = 6;
 /// Bits of what travels beside the vector.
 const META_BITS: u32 = 1;
 
+/// By then the first two results of either unit are there, if nothing pauses: later clocks compare nothing new.
+const LAST_RESULT_CLOCKS: u32 = 40;
+
 /// The unrolled unit beside the folded, and beside the iterative one.
 pub(super) const PAIRS: [Proof; 2] = [
     pair("folded", "a folded angle unit gives what the unrolled one gives, word by word", |_| units("2")),
@@ -37,7 +40,7 @@ const fn pair(
         rtl,
         definitions: |_| wrappers(),
         setup: nothing,
-        bound_clocks: None,
+        bounded: &[(0, LAST_RESULT_CLOCKS)],
         cover_clocks: 60,
     }
 }

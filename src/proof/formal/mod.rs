@@ -63,7 +63,8 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
         // A design with a fault need not be covered.
         for (number, what) in proof.names(list).into_iter().filter(|_| !cover || fault.is_none()) {
             let watch = format!("{list}[{number}]");
-            let bound = if cover { Some(proof.cover_clocks) } else { proof.bound_clocks };
+            let bounded = proof.bounded.iter().find(|&&(bounded, _)| bounded == number);
+            let bound = if cover { Some(proof.cover_clocks) } else { bounded.map(|&(_, clocks)| clocks) };
             let answer = engine::ask(temporary.path(), &design, &watch, bound)?;
             findings.push(Finding { proof: proof.name, what, cover, answer });
         }

@@ -22,8 +22,8 @@ pub struct Proof {
     pub(super) definitions: fn(&Pipeline) -> String,
     /// Yosys commands that change parameters of modules that the file does not instantiate itself.
     pub(super) setup: fn(&Pipeline) -> String,
-    /// Clocks after power-up to which the properties are proved; nothing: for ever.
-    pub bound_clocks: Option<u32>,
+    /// Properties that are proved up to so many clocks after power-up; all others are proved for ever.
+    pub bounded: &'static [(usize, u32)],
     /// Clocks within which every cover must be reached.
     pub cover_clocks: u32,
 }
@@ -39,7 +39,7 @@ pub const PROOFS: &[Proof] = &[
             define("STREAM_REGISTER", format_args!("{}_stream_register", pipeline.prefix()))
         },
         setup: nothing,
-        bound_clocks: None,
+        bounded: &[],
         cover_clocks: 30,
     },
     Proof {
@@ -49,7 +49,7 @@ pub const PROOFS: &[Proof] = &[
         rtl: core,
         definitions: framing,
         setup: nothing,
-        bound_clocks: None,
+        bounded: &[],
         cover_clocks: 120,
     },
     sums_of_pixel("sums-0", |pipeline| sums(pipeline, 0)),
@@ -63,7 +63,7 @@ pub const PROOFS: &[Proof] = &[
         rtl: core,
         definitions: whole,
         setup: nothing,
-        bound_clocks: None,
+        bounded: &[],
         cover_clocks: 200,
     },
     equal::PAIRS[0],
@@ -79,7 +79,7 @@ const fn sums_of_pixel(name: &'static str, definitions: fn(&Pipeline) -> String)
         rtl: core,
         definitions,
         setup: small_memory,
-        bound_clocks: None,
+        bounded: &[],
         cover_clocks: 80,
     }
 }
