@@ -8,7 +8,7 @@ VURIS := $(or $(CARGO_TARGET_DIR),target)/release/vuris
 unexport MAKEFLAGS MFLAGS
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test lint cocotb generate synth picture clean
+.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove picture clean
 
 help:      ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
@@ -47,6 +47,17 @@ generate: build ## write generated/ anew
 synth: build ## area and clock frequency of every target (minutes; ACCEPT=1 takes changed areas for the baseline)
 	bash scripts/hdl-tools.sh synth
 	$(VURIS) synth --out generated $(if $(ACCEPT),--accept)
+
+mutate: setup build ## faults that the benches must kill: docs/mutation-*.md (half an hour)
+	$(VURIS) mutate --spec vuris --out docs
+	$(VURIS) mutate --spec vuris-fast --out docs
+
+coverage: setup build ## lines that run and bits that move: docs/coverage-*.md
+	$(VURIS) coverage --spec vuris --out docs
+	$(VURIS) coverage --spec vuris-fast --out docs
+
+prove: setup build ## formal proofs, their covers, and designs in which each must fail
+	$(VURIS) prove --spec vuris
 
 picture: setup build ## draw the pictures in docs/images anew
 	$(VURIS) scene --out docs/images

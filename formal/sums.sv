@@ -64,9 +64,13 @@ module properties (
     .quadrature_o(quadrature_o), .offset_o(offset_o), .saturated_o(saturated_o)
   );
 
-  // The observer's own sums of the watched pixel, and those of the set before, which drain.
+  // The observer's own sums of the watched pixel, and those that are to come out: of the set that drains, and, where the last of the
+  // set before still wait at the outputs, of that one first.
   reg signed [WIDE-1:0] in_phase, quadrature, offset, in_phase_due, quadrature_due, offset_due;
-  reg saturated, saturated_due;
+  reg signed [WIDE-1:0] in_phase_next, quadrature_next, offset_next;
+  reg saturated, saturated_due, saturated_next;
+  reg [1:0] owed = 2'd0;  // sums of the watched pixel
+  reg [3:0] left = 4'd0;  // sums of all pixels
   reg signed [WIDE-1:0] in_phase_term, quadrature_term, offset_term;
   wire signed [WIDE-1:0] code = {{(WIDE-`SAMPLE_BITS){1'b0}}, sample};
   always @(*) begin
@@ -74,6 +78,15 @@ module properties (
 `WEIGHTS
     endcase
   end
+  // The pixel at the outputs, counted by what has come out.
+  reg [1:0] out = 2'd0;
+  always @(posedge clk) begin
+    if (!rst_n) out <= 2'd0;
+    else if (valid_o && advance) out <= out + 2'd1;
+  end
+  wire due   = rst_n && valid_o && out == pixel;
+  wire given = due && advance;
+
   wire mine = taken && next[1:0] == pixel;
   always @(posedge clk) begin
     if (mine) begin
@@ -83,23 +96,31 @@ module properties (
       saturated  <= (first_frame ? 1'b0 : saturated) || &sample;
     end
     if (starts) begin
-      in_phase_due   <= in_phase;
-      quadrature_due <= quadrature;
-      offset_due     <= offset;
-      saturated_due  <= saturated;
+      in_phase_next   <= in_phase;
+      quadrature_next <= quadrature;
+      offset_next     <= offset;
+      saturated_next  <= saturated;
     end
+    // What is due moves up when nothing is owed any more, or the last that was owed comes out.
+    if (owed == 2'd0 || (given && owed == 2'd1) || (given && owed == 2'd2)) begin
+      if (starts && (owed == 2'd0 || (given && owed == 2'd1))) begin
+        in_phase_due   <= in_phase;
+        quadrature_due <= quadrature;
+        offset_due     <= offset;
+        saturated_due  <= saturated;
+      end else begin
+        in_phase_due   <= in_phase_next;
+        quadrature_due <= quadrature_next;
+        offset_due     <= offset_next;
+        saturated_due  <= saturated_next;
+      end
+    end
+    owed <= !rst_n ? 2'd0 : owed + {1'b0, starts} - {1'b0, given};
+    left <= !rst_n ? 4'd0 : left + (starts ? 4'd4 : 4'd0) - (valid_o && advance ? 4'd1 : 4'd0);
   end
-
-  // The pixel at the outputs, counted by what has come out.
-  reg [2:0] out = 3'd0;
-  always @(posedge clk) begin
-    if (!rst_n || starts) out <= 3'd0;
-    else if (valid_o && advance) out <= out + 3'd1;
-  end
-  wire due = rst_n && valid_o && out[1:0] == pixel;
 
   wire [6:0] bad = {
-    rst_n && valid_o && out > PIXELS - 1,                                                // 6 as many out as pixels
+    rst_n && valid_o && left == 0,                                                       // 6 as many out as pixels
     rst_n && valid_o && last_o != out[0],                                                // 5 a line's last is marked
     rst_n && valid_o && first_o != (out == 0),                                           // 4 a frame's first is marked
     due && saturated_o != saturated_due,                                                 // 3 saturation is sticky

@@ -11,8 +11,8 @@ fn factor_bits(factor: ScaledConstant) -> u32 {
     Word::holding(0, factor.multiplier).bits
 }
 
-/// Terms of a sum that stand in a line.
-const TERMS_A_LINE: usize = 5;
+/// Characters of a sum that stand in a line.
+const LINE_CHARACTERS: usize = 90;
 
 /// `operand` of `bits` bits times the constant `multiplier`, modulo 2^bits.
 fn product(kind: Multipliers, operand: &str, bits: u32, multiplier: i64) -> String {
@@ -20,9 +20,12 @@ fn product(kind: Multipliers, operand: &str, bits: u32, multiplier: i64) -> Stri
         return format!("{operand} * {}", literal(bits, multiplier));
     }
     let mut text = String::new();
-    for (number, (place, digit)) in signed_digits(multiplier).into_iter().rev().enumerate() {
+    let mut line = 0;
+    for (place, digit) in signed_digits(multiplier).into_iter().rev() {
         let term = if place == 0 { operand.to_owned() } else { format!("({operand} << {place})") };
-        let space = if number % TERMS_A_LINE == 0 { "\n        " } else { " " };
+        let full = line + term.len() > LINE_CHARACTERS;
+        line = if full { 0 } else { line } + term.len() + 3;
+        let space = if full { "\n        " } else { " " };
         // The highest digit of a positive number is positive.
         match (text.is_empty(), digit) {
             (true, _) => text = term,

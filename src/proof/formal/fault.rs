@@ -75,8 +75,8 @@ pub const FAULTS: &[Fault] = &[
         "framing",
         "framing",
         "one step too few",
-        "LAST_STEP[STEP_BITS-1:0]",
-        "LAST_STEP[STEP_BITS-1:0] - 1'b1",
+        "LAST_PLACE[PLACE_BITS-1:0]",
+        "LAST_PLACE[PLACE_BITS-1:0] - 1'b1",
     ),
     fault("framing", "framing", "broken set not counted", " + {31'd0, fault}", ""),
     fault("framing", "framing", "abandoned set not counted", " + {31'd0, abandoned}", ""),
@@ -155,7 +155,7 @@ pub const FAULTS: &[Fault] = &[
         "wait_valid_q <= valid_i || !ready_o;",
         "wait_valid_q <= valid_i;",
     ),
-    fault("pipeline", "pipeline", "a bit between the fields", "7'd0,", "7'd1,"),
+    fault("pipeline", "pipeline", "a bit between the fields", "5'd0,", "5'd1,"),
 ];
 
 impl Fault {

@@ -79,3 +79,20 @@ fn few_pixels(pipeline: &Pipeline) -> Result<Pipeline> {
         specification.sensor.line_blanking_clocks = 16;
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fault_has_its_place_in_the_verilog_and_its_proof() {
+        let pipeline = few_pixels(&Pipeline::named("vuris").unwrap()).unwrap();
+        for fault in FAULTS {
+            let proof = PROOFS.iter().find(|proof| proof.name == fault.proof).expect(fault.proof);
+            let mut rtl = (proof.rtl)(&pipeline).unwrap();
+            let before = rtl.clone();
+            fault.seed(&pipeline.prefix(), &mut rtl).unwrap();
+            assert_ne!(before, rtl, "{}", fault.name);
+        }
+    }
+}
