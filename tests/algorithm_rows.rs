@@ -24,6 +24,7 @@ fn designed() -> Scheme {
         harmonics_in_motion: false,
         drift: true,
         frames: 9,
+        growth_bits: 8,
         steps: usual_steps(),
     };
     design(&request).unwrap().swap_remove(0).scheme

@@ -109,6 +109,14 @@ fn contradictions(row: &Algorithm, verdict: &Verdict) -> Vec<String> {
             found.push(format!("harmonic {m}: slope {order:.3}, by its roots {}", harmonic.rejected()));
         }
     }
+    let clean = |k: u32| {
+        let phase = TAU * (f64::from(k) + 0.21) / 50.0;
+        Complex64::from_polar(1.0, phase_of(&frames(&row.angles, phase, none)) - phase).arg().abs()
+    };
+    let clean = (0..50).map(clean).fold(0.0, f64::max);
+    if (clean < 1e-10) != (verdict.step_order > 0) {
+        found.push(format!("clean frames: off by {clean:e}, by its roots {}", verdict.step_order));
+    }
     let step = |step: f64| swing(Wrong { step, ..none }, none).1;
     if row.estimator.is_some() {
         // Both estimate the step: no power of its error is left.
@@ -249,6 +257,7 @@ fn roots_are_those_of_the_published_factors() {
     // Around a step of a quarter of a turn, Novák's is Hariharan's, and Carré's has the double root that he made it for.
     assert_eq!(roots("novak"), roots("hariharan"));
     assert_eq!(roots("carre"), [(-1, 2), (0, 1)]);
+    assert_eq!(roots("carre-110"), [(-1, 2), (0, 1)]);
     // The thirteen frames have the root 3 three times, and not −3.
     let thirteen = roots("thirteen-frame");
     assert!(thirteen.contains(&(3, 3)) && thirteen.iter().all(|root| root.0 != -3), "{thirteen:?}");
@@ -297,6 +306,7 @@ fn request(reject: &[usize], frames: usize, steps: &[(i64, i64)]) -> Request {
         harmonics_in_motion: false,
         drift: false,
         frames,
+        growth_bits: 8,
         steps: match steps {
             [] => usual_steps(),
             _ => steps.iter().map(|&(p, q)| StepAngle::new(p, q).unwrap()).collect(),
@@ -332,6 +342,13 @@ fn assert_met(request: &Request, designs: &[Design]) {
         let scheme = &design.scheme;
         let what = format!("{:?} {:?} {:?}", scheme.angles, scheme.in_phase, scheme.quadrature);
         assert!(scheme.steps() <= request.frames, "{what}");
+        // A sum of frames of w bits stays within w + growth bits.
+        for weights in [&scheme.in_phase, &scheme.quadrature] {
+            assert!(
+                weights.iter().map(|weight| weight.abs()).sum::<i64>() <= 1 << request.growth_bits,
+                "{what}"
+            );
+        }
         assert_eq!(numeric_multiplicity(scheme, 1), 0, "{what}");
         let image = if request.drift { request.motion.max(1) } else { request.motion } + 1;
         assert!(numeric_multiplicity(scheme, -1) >= image, "{what}");
@@ -480,6 +497,7 @@ fn impossible_requests_are_refused_with_the_reason() {
         (request(&[2], 2, &[]), "--frames 2"),
         (request(&[2], 17, &[]), "--frames 17"),
         (request(&[2], 9, &[(1, 2)]), "--step 1/2"),
+        (Request { growth_bits: 0, ..request(&[2], 4, &[(1, 4)]) }, "no row of small weights"),
     ] {
         let refusal = design(&wanted).unwrap_err().to_string();
         assert!(refusal.contains(reason), "{reason} is not in\n{refusal}");

@@ -1,7 +1,7 @@
 //! The table of algorithms: published rows, the schemes that are built in, plain DFTs, and those that estimate the step.
 
 use super::estimator::Estimator;
-use super::polynomial::{Basis, Polynomial};
+use super::polynomial::{Basis, Polynomial, divisor};
 use crate::problem::{Problem, Result};
 use crate::spec::{DFT_FRAMES, Irrational, Row, SCHEMES, Scheme, SchemeOrigin, StepAngle};
 use num_complex::Complex64;
@@ -232,10 +232,10 @@ impl Algorithm {
     pub fn equal_step(&self) -> Option<StepAngle> {
         let between = |pair: &[StepAngle]| {
             let (one, other) = (pair[0], pair[1]);
-            StepAngle::new(
-                other.numerator() * one.denominator() - one.numerator() * other.denominator(),
-                one.denominator() * other.denominator(),
-            )
+            let numerator = other.numerator() * one.denominator() - one.numerator() * other.denominator();
+            let denominator = one.denominator() * other.denominator();
+            let common = divisor(numerator, denominator).max(1);
+            StepAngle::new(numerator / common, denominator / common)
         };
         let first = between(self.angles.get(..2)?)?;
         self.angles.windows(2).all(|pair| between(pair) == Some(first)).then_some(first)

@@ -78,6 +78,9 @@ struct Design {
     /// Phase steps to try, fractions of a turn [default: 1/3, 1/4, 1/6, 1/8, 1/9, 1/12]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     step: Vec<String>,
+    /// Bits at most by which a sum may be longer than a frame's word
+    #[arg(long, value_name = "BITS", default_value_t = 8)]
+    growth: u32,
     /// Rows to print
     #[arg(long, value_name = "N", default_value_t = 10)]
     show: usize,
@@ -228,6 +231,7 @@ impl Design {
             harmonics_in_motion: tolerated(Tolerate::Harmonics),
             drift: tolerated(Tolerate::Drift),
             frames: self.frames,
+            growth_bits: self.growth,
             steps: if steps.is_empty() { usual_steps() } else { steps },
         };
         let designs = progress::during("searching", || design(&request))?;

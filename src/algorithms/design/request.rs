@@ -25,6 +25,8 @@ pub struct Request {
     pub drift: bool,
     /// Frames at most.
     pub frames: usize,
+    /// Bits at most by which the longer of both sums may be longer than a frame's word.
+    pub growth_bits: u32,
     /// Phase steps to try.
     pub steps: Vec<StepAngle>,
 }
@@ -125,7 +127,7 @@ impl Request {
     pub fn roots(&self) -> Vec<(i64, usize, String)> {
         let mut roots = vec![
             (0, if self.drift { 2 } else { 1 }, "constant light".to_owned()),
-            (-1, (1 + self.motion).max(if self.drift { 2 } else { 1 }), "the fundamental's image".to_owned()),
+            (-1, (1 + self.motion).max(if self.drift { 2 } else { 1 }), IMAGE.to_owned()),
         ];
         for &harmonic in &self.reject {
             for m in [harmonic as i64, -(harmonic as i64)] {
@@ -186,7 +188,7 @@ impl Request {
                     shown(demand)
                 )),
                 Some(_) => {}
-                None => reasons.extend(demands.iter().filter_map(|demand| demand.clone().err())),
+                None => reasons.extend(refusals(&demands)),
             }
             met.extend(demands.into_iter().flatten().filter(|demand| demand.least_frames() <= self.frames));
         }
@@ -202,6 +204,16 @@ impl Request {
         Ok(met)
     }
 }
+
+/// Why neither ring can. One in which the fundamental's own image cannot be rejected is not worth a word beside the other.
+fn refusals(demands: &[std::result::Result<Demand, String>; 2]) -> Vec<String> {
+    let reasons: Vec<String> = demands.iter().filter_map(|demand| demand.clone().err()).collect();
+    let telling: Vec<String> = reasons.iter().filter(|reason| !reason.contains(IMAGE)).cloned().collect();
+    if telling.is_empty() { reasons } else { telling }
+}
+
+/// What the refusals call the root −1.
+const IMAGE: &str = "the fundamental's image";
 
 /// The roots in words, nearest to 0 first, such as `0, -1 twice, 2`.
 fn shown(demand: &Demand) -> String {

@@ -66,7 +66,7 @@ pub fn design(request: &Request) -> Result<Vec<Design>> {
             "roots that can be had, but no row of small weights with them",
         )
         .expected("weights of 18 bits, and frames among which a regular polygon gives the offset")
-        .remedy("allow more frames, or other steps"));
+        .remedy("allow more growth, more frames, or other steps"));
     }
     rank(&mut designs);
     Ok(designs)
@@ -190,11 +190,12 @@ fn checked(request: &Request, demand: &Demand, row: Row) -> Option<Design> {
     let digits = scheme.in_phase.iter().chain(&*scheme.quadrature).map(|&weight| signed_digits(weight)).sum();
     let growth = |weights: &[i64]| weights.iter().map(|weight| weight.unsigned_abs()).sum::<u64>();
     let most = growth(&scheme.in_phase).max(growth(&scheme.quadrature)).max(1);
-    Some(Design {
+    let growth_bits = most.next_power_of_two().trailing_zeros();
+    (growth_bits <= request.growth_bits).then(|| Design {
         verdict: Verdict::of(&polynomial, Some(demand.step.denominator())),
         step: demand.step,
         digits,
-        growth_bits: most.next_power_of_two().trailing_zeros(),
+        growth_bits,
         rank: 0,
         scheme,
     })

@@ -140,7 +140,9 @@ fn fate(row: &HarmonicVerdict) -> String {
     let parts: Vec<String> = [(upper, row.harmonic - 1), (lower, row.harmonic + 1)]
         .into_iter()
         .filter(|(share, _)| *share > 0.0)
-        .map(|(share, cycles)| format!("{cycles} cycles of {share:.4} of it"))
+        .map(|(share, cycles)| {
+            format!("{cycles} cycle{} of {share:.4} of it", if cycles == 1 { "" } else { "s" })
+        })
         .collect();
     format!("{}{alias}", parts.join(", "))
 }
