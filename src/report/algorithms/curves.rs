@@ -48,8 +48,9 @@ pub fn curves_csv(algorithms: &[Algorithm], bench: &Bench) -> Result<String> {
         for curve in Curve::ALL {
             let (name, unit) = curve.axis();
             for (value, error) in bench.curve(curve, algorithm) {
-                let numbers = [1.0, 1e3 * error.mean_rad, 1e3 * error.rms_rad, 1e3 * error.peak_rad];
-                let [_, mean, rms, peak] = numbers.map(|number| format!("{number:.6}"));
+                let errors = [error.mean_rad, error.rms_rad, error.peak_rad];
+                // Adding 0 takes the sign off a zero.
+                let [mean, rms, peak] = errors.map(|rad| format!("{:.6}", (1e9 * rad).round() / 1e6 + 0.0));
                 let value = format!("{value}");
                 writer
                     .write_record([&algorithm.name, name, unit, &value, &mean, &rms, &peak])

@@ -70,22 +70,27 @@ pub fn algorithms_picture(algorithms: &[Algorithm], bench: &Bench) -> String {
         let curves: Vec<Vec<(f64, PhaseError)>> =
             algorithms.iter().map(|algorithm| bench.curve(curve, algorithm)).collect();
         let values = || curves.iter().flatten().map(|point| point.0);
+        let margin = if curve == Curve::Harmonic { 0.5 } else { 0.0 };
         let panel = Panel {
             left: MARGIN + 50.0 + (number % 2) as f64 * (PANEL_WIDTH + GAP),
             top: TOP + (number / 2) as f64 * ROW_HEIGHT,
-            low: values().fold(f64::INFINITY, f64::min),
-            high: values().fold(f64::NEG_INFINITY, f64::max),
+            low: values().fold(f64::INFINITY, f64::min) - margin,
+            high: values().fold(f64::NEG_INFINITY, f64::max) + margin,
         };
         panel.frame(&mut svg, curve);
-        for (points, colour) in curves.iter().zip(COLOURS.into_iter().cycle()) {
+        for (number, (points, colour)) in curves.iter().zip(COLOURS.into_iter().cycle()).enumerate() {
             let at = |(value, error): &(f64, PhaseError)| (panel.x(*value), panel.y(error.rms_rad));
             if curve == Curve::Harmonic {
-                // Between whole numbers there is no harmonic: dots, and no line.
-                points
-                    .iter()
-                    .for_each(|point| svg.dot(at(point), 3.5, colour, &format!("harmonic {}", point.0)));
+                // Between whole numbers there is no harmonic: dots, and no line; beside each other, to be seen all.
+                let aside = 3.5 * (number as f64 - (curves.len() - 1) as f64 / 2.0);
+                for point in points {
+                    let (x, y) = at(point);
+                    svg.dot((x + aside, y), 3.0, colour, &format!("harmonic {}", point.0));
+                }
             } else {
-                svg.stroke(&points.iter().map(at).collect::<Vec<_>>(), colour, 1.5);
+                // What lies under others is wider, to be seen.
+                let width = 1.5 + 0.7 * (curves.len() - 1 - number) as f64;
+                svg.stroke(&points.iter().map(at).collect::<Vec<_>>(), colour, width.min(8.0));
             }
         }
     }
