@@ -151,3 +151,26 @@ fn a_design_is_printed_generated_and_refused() {
     let text = run(folder.path(), &["algorithms", "--frequency-hz", "0"], 2);
     assert!(text.contains("--frequency-hz 0"), "{text}");
 }
+
+/// Every line that the notes show below a command is one that it prints.
+#[test]
+fn the_notes_show_what_the_commands_print() {
+    let notes = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/algorithms.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let mut commands = 0;
+    for block in notes.split("```console\n").skip(1) {
+        let mut lines = block.split("\n```").next().unwrap().lines();
+        let command = lines.next().unwrap().strip_prefix("$ vuris ").unwrap();
+        let arguments: Vec<&str> = command.split(' ').collect();
+        let output = cargo_bin_cmd!("vuris").current_dir(folder.path()).args(&arguments).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+        for line in lines.filter(|line| *line != "…") {
+            assert!(
+                text.lines().any(|printed| printed == line),
+                "{command} does not print\n{line}\nbut\n{text}"
+            );
+        }
+        commands += 1;
+    }
+    assert!(commands >= 6, "{commands}");
+}

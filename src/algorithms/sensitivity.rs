@@ -31,8 +31,11 @@ pub struct PhaseError {
     pub peak_rad: f64,
 }
 
-/// Phases of a turn that are simulated: an odd number, in no ratio with any step's parts.
-const PHASES: u32 = 719;
+/// Phases of a turn that are simulated: a prime, in no ratio with any step's parts. Those that estimate the step have narrow
+/// peaks where the radicand changes its sign.
+const fn phases(linear: bool) -> u32 {
+    if linear { 719 } else { 7193 }
+}
 
 impl Disturbance {
     /// Intensity of the frame `n` at `angle_rad`: amplitude 1, offset 2.
@@ -59,14 +62,15 @@ impl Disturbance {
 
     /// The errors over a turn of phases, their mean that of unit vectors.
     pub fn error(&self, algorithm: &Algorithm) -> PhaseError {
-        let errors: Vec<f64> = (0..PHASES)
-            .map(|k| self.error_rad(algorithm, TAU * (f64::from(k) + 0.25) / f64::from(PHASES)))
+        let phases = phases(algorithm.estimator.is_none());
+        let errors: Vec<f64> = (0..phases)
+            .map(|k| self.error_rad(algorithm, TAU * (f64::from(k) + 0.25) / f64::from(phases)))
             .collect();
         let mean_rad = errors.iter().map(|&error| Complex64::from_polar(1.0, error)).sum::<Complex64>().arg();
         let away = || errors.iter().map(|error| wrap_rad(error - mean_rad));
         PhaseError {
             mean_rad,
-            rms_rad: (away().map(|error| error * error).sum::<f64>() / f64::from(PHASES)).sqrt(),
+            rms_rad: (away().map(|error| error * error).sum::<f64>() / f64::from(phases)).sqrt(),
             peak_rad: away().map(f64::abs).fold(0.0, f64::max),
         }
     }

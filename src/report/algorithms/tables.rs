@@ -49,7 +49,8 @@ fn order(step_order: usize) -> String {
     step_order.checked_sub(1).map_or_else(|| "biased".to_owned(), |order| order.to_string())
 }
 
-/// A row for each of `designs`, in their order.
+/// A row for each of `designs`, in their order. A drift of the amplitude by 100 % a frame would turn every phase by the angle
+/// in the last column but one; smaller ones in proportion.
 pub fn design_table(designs: &[Design]) -> String {
     let header = [
         "rank",
@@ -62,6 +63,7 @@ pub fn design_table(designs: &[Design]) -> String {
         "rejects harmonics",
         "under a linear step error too",
         "step error: free of swing to order",
+        "turn by amplitude drift, rad",
         "in-phase, quadrature",
     ];
     let row = |design: &Design| {
@@ -76,6 +78,7 @@ pub fn design_table(designs: &[Design]) -> String {
             words::list(&design.verdict.rejected(1)),
             words::list(&design.verdict.rejected(2)),
             order(design.verdict.step_order),
+            format!("{:.2}", design.verdict.drift_turn_rad),
             words::rows(&design.scheme),
         ]
     };
