@@ -47,7 +47,8 @@ fn the_generator_takes_every_row_of_integers() {
 #[test]
 fn rows_of_the_table_and_a_designed_one_agree_in_verilator() {
     let of = |name: &str| vuris::algorithms::named(name).unwrap().unwrap().scheme.unwrap();
-    let rows = [of("wdft-4"), of("n-plus-1-b-6"), of("thirteen-frame"), designed()];
+    let rows =
+        [of("wdft-4"), of("wdft-6"), of("n-plus-1-b-6"), of("n-plus-3-3"), of("thirteen-frame"), designed()];
     let values = two_at_a_time(&rows, |scheme| {
         let pipeline = pipeline(scheme);
         let golden = Golden::new(&pipeline, &everything(&pipeline, 11));

@@ -20,13 +20,15 @@ use vuris::spec::{Irrational, Row, SCHEMES, Scheme, SchemeOrigin, StepAngle};
 struct Wrong {
     harmonic: (usize, f64),
     step: f64,
+    motion_rad: f64,
     amplitude_drift: f64,
     offset_drift: f64,
 }
 
 fn frames(angles: &[StepAngle], phase: f64, wrong: Wrong) -> Vec<f64> {
     let frame = |(n, angle): (usize, &StepAngle)| {
-        let t = TAU * angle.numerator() as f64 / angle.denominator() as f64 * (1.0 + wrong.step) - phase;
+        let angle = TAU * angle.numerator() as f64 / angle.denominator() as f64 * (1.0 + wrong.step);
+        let t = angle - phase - wrong.motion_rad * n as f64;
         let wave = t.cos() + wrong.harmonic.1 * (wrong.harmonic.0 as f64 * t).cos();
         (1.0 + wrong.amplitude_drift * n as f64) * wave + 1.5 + wrong.offset_drift * n as f64
     };
@@ -287,6 +289,36 @@ fn rows_are_those_of_another_source() {
         for (a, b) in other.characteristic_polynomial().iter().zip(own.polynomial.coefficients()) {
             assert!((a - b * factor).norm() < 1e-9, "{name}: {a} {b}");
         }
+    }
+}
+
+/// The WDFT's frames in another order: a wrong step is as harmless as before, motion is not.
+#[test]
+fn motion_is_judged_in_the_order_of_the_frames() {
+    let wdft = &SCHEMES[1];
+    let order = [0, 3, 1, 4, 2];
+    let taken = |weights: &[i64]| order.iter().map(|&n| weights[n]).collect::<Vec<_>>();
+    let row = Row {
+        name: "reordered".to_owned(),
+        angles: order.iter().map(|&n| wdft.angles[n]).collect(),
+        in_phase: taken(&wdft.in_phase),
+        quadrature: taken(&wdft.quadrature),
+        offset: Some(taken(&wdft.offset)),
+        irrational: Irrational::Sqrt3,
+        reference: "test".to_owned(),
+    };
+    let reordered = Algorithm::of_scheme(&Scheme::of_row("test", row).unwrap()).unwrap();
+    for (row, motion_order) in [(&named("wdft").unwrap().unwrap(), 2), (&reordered, 1)] {
+        let verdict = Verdict::new(row);
+        assert_eq!((verdict.step_order, verdict.motion_order), (2, motion_order));
+        assert_eq!(verdict.rejected(2), [3, 6, 9, 12]);
+        assert_eq!(contradictions(row, &verdict), [""; 0]);
+        let swing = |motion_rad: f64| {
+            let wrong = Wrong { motion_rad, ..Wrong::default() };
+            swing(&|frames| phase(row, frames), &row.angles, wrong, Wrong::default()).1
+        };
+        let slope = (swing(2e-3) / swing(1e-3)).log2();
+        assert!((slope - motion_order as f64).abs() < 0.05, "{slope}");
     }
 }
 
@@ -553,5 +585,15 @@ fn impossible_requests_are_refused_with_the_reason() {
         let refusal = design(&wanted).unwrap_err().to_string();
         assert!(refusal.contains(reason), "{reason} is not in\n{refusal}");
         assert!(refusal.contains("expected:"), "{refusal}");
+    }
+}
+
+/// Integer weights need a step whose denominator is a multiple of 3 or 4, and any such will do for the image.
+#[test]
+fn denominators_with_a_factor_of_3_or_4_are_those_that_integers_can_do() {
+    for parts in 3..=24 {
+        let refusal = design(&request(&[], 8, &[(1, parts)])).err().map(|problem| problem.to_string());
+        let conjugates = refusal.as_ref().is_some_and(|text| text.contains("roots -1 and 1 are conjugates"));
+        assert_eq!(conjugates, parts % 3 != 0 && parts % 4 != 0, "{parts}: {refusal:?}");
     }
 }

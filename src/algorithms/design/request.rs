@@ -31,7 +31,8 @@ pub struct Request {
     pub steps: Vec<StepAngle>,
 }
 
-/// Steps that are tried where none is asked for. Only denominators with a factor of 3 or 4 can do (see [`Ring`]).
+/// Steps that are tried where none is asked for. Only denominators with a factor of 3 or 4 can do: with others the
+/// fundamental's image is a conjugate of the fundamental over the numbers that weights are made of.
 pub fn usual_steps() -> Vec<StepAngle> {
     [3, 4, 6, 8, 9, 12].into_iter().filter_map(|parts| StepAngle::new(1, parts)).collect()
 }
