@@ -173,7 +173,7 @@ const ESTIMATORS: [(&str, Estimator, (i64, i64), &str); 3] = [
         "carre-110",
         Estimator::Carre,
         (11, 36),
-        "Carre 1966, with the step of 110 degrees that he chose for its noise",
+        "Carre 1966, around the step of 110 degrees that is recommended for it",
     ),
     (
         "novak",
