@@ -30,6 +30,7 @@
 //! | [`proof`] | what the checks are worth: mutants of the RTL, coverage, formal proofs |
 //! | [`recording`] | the recording format, read and written |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
+//! | [`algorithms`] | phase algorithms: characteristic polynomials, verdicts, sensitivities, the design of rows |
 //! | [`physics`] | the forward simulator of raw frames |
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
@@ -44,6 +45,7 @@
 //!
 //! `tests/architecture.rs` asserts each of these sentences.
 
+pub mod algorithms;
 pub mod artifact;
 pub mod cli;
 pub mod cosim;

@@ -14,11 +14,12 @@ const EDGES: &Edges = &[
     ("main", "cli"),
     (
         "cli",
-        "artifact cosim frames hdl model package physics problem proof ranging recording reference report spec sweep synthesis \
-         units",
+        "algorithms artifact cosim frames hdl model package physics problem proof ranging recording reference report spec sweep \
+         synthesis units",
     ),
     ("package", "artifact hdl report spec units"),
-    ("report", "frames hdl problem spec sweep synthesis units"),
+    ("report", "algorithms frames hdl problem spec sweep synthesis units"),
+    ("algorithms", "problem spec units"),
     ("ranging", "problem recording reference units"),
     ("proof", "artifact cosim frames hdl problem spec"),
     ("sweep", "model physics problem spec units"),
@@ -45,7 +46,7 @@ const LAYERS: &[&str] = &[
     "ranging",
     "sweep synthesis",
     "cosim hdl physics recording",
-    "model reference",
+    "algorithms model reference",
     "spec frames units",
     "artifact fields",
     "problem",

@@ -48,7 +48,11 @@ fn number_after(text: &str, before: &str) -> f64 {
 
 #[test]
 fn help_names_every_command_and_every_option() {
-    let commands: [(&str, &[&str]); 8] = [
+    let commands: [(&str, &[&str]); 9] = [
+        (
+            "algorithms",
+            &["show", "design", "--json", "--out <DIR>", "--frequency-hz <HZ>", "--frame-ms <MS>"],
+        ),
         ("generate", &["--spec <FILE|PRESET>", "--out <DIR>", "--check", "default: generated"]),
         (
             "verify",

@@ -1,5 +1,6 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
+mod algorithms;
 mod campaign;
 mod coverage;
 mod demo;
@@ -45,6 +46,7 @@ enum Command {
     Mutate(mutate::Mutate),
     Coverage(coverage::Coverage),
     Prove(prove::Prove),
+    Algorithms(algorithms::Algorithms),
 }
 
 impl Arguments {
@@ -63,6 +65,7 @@ impl Arguments {
             Command::Mutate(command) => command.run(),
             Command::Coverage(command) => command.run(),
             Command::Prove(command) => command.run(),
+            Command::Algorithms(command) => command.run(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Results as a person reads them: tables, and pictures of plain numbers.
 
+mod algorithms;
 mod angle_explanation;
 mod colour_map;
 mod error_maps;
@@ -11,6 +12,10 @@ mod svg;
 mod sweep;
 mod synthesis;
 
+pub use algorithms::{
+    Bench, algorithm_explanation, algorithms_json, algorithms_picture, algorithms_table, curves_csv,
+    design_table, designs_json,
+};
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
 pub use explanation::{Section, explanation, sections};

@@ -21,6 +21,15 @@ pub(super) fn read(path: &str, presets: &str) -> Result<String> {
     })
 }
 
+/// The text of the file at `path` with a scheme; `names` would have done, too.
+pub(super) fn read_row(path: &str, names: &str) -> Result<String> {
+    read_text(Path::new(path)).map_err(|error| {
+        Problem::io(Path::new(path), "read the row", &error)
+            .expected(format_args!("a TOML file, or one of {names}"))
+            .remedy("`vuris algorithms show hariharan --toml > my.toml` writes a file to start from")
+    })
+}
+
 /// The text of a regular file of a plausible size: a device would be read for ever.
 fn read_text(path: &Path) -> std::io::Result<String> {
     let metadata = std::fs::metadata(path)?;
@@ -32,6 +41,20 @@ fn read_text(path: &Path) -> std::io::Result<String> {
         return refuse("it is not a file of at most a megabyte");
     }
     std::fs::read_to_string(path)
+}
+
+/// The scheme of the text of a file: of a specification, or of a file that has nothing but the table `modulation` with a
+/// scheme in it.
+pub(super) fn parse_scheme(source: &str, text: &str) -> Result<Scheme> {
+    let table = fields::parse(source, text)?;
+    let top = Fields::top(source, &table);
+    if top.has("format") {
+        return Ok(parse(source, text)?.modulation.scheme);
+    }
+    top.only(&["modulation"])?;
+    let modulation = top.section("modulation")?;
+    modulation.only(&["scheme", "frames", "coefficient_bits"])?;
+    scheme_file::read(source, &modulation)
 }
 
 /// Reads the text of a file; the limits of each value are checked here, their interplay by [`check`].

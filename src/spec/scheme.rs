@@ -1,6 +1,8 @@
 //! Phase schemes: which raw frames a phase is made of, and with which weights. One row each.
 
+use super::file;
 use super::step_angle::StepAngle;
+use crate::problem::Result;
 use num_complex::Complex64;
 use std::borrow::Cow;
 use std::fmt;
@@ -140,6 +142,15 @@ pub fn scheme_names() -> String {
 }
 
 impl Scheme {
+    /// The scheme of the TOML file at `path`: a specification's, or that of a file with nothing but `[modulation.scheme]`.
+    /// `names` are the names that would have done, too, for a refusal.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or a scheme that a specification could not have.
+    pub fn of_file(path: &str, names: &str) -> Result<Self> {
+        file::parse_scheme(path, &file::read_row(path, names)?)
+    }
+
     /// Phase steps in a set.
     pub fn steps(&self) -> usize {
         self.in_phase.len()
