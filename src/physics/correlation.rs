@@ -1,5 +1,7 @@
 //! The correlation waveform: what light and sensor make of the phase between them.
 
+use super::trig::cos_sin;
+
 /// The correlation of the modulated light with the sensor's own modulation, as harmonics of the modulation frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlation {
@@ -38,6 +40,45 @@ impl Correlation {
             .map(|(number, inverse)| Harmonic { number, amplitude: 1.0 / inverse, phase_rad: 0.0 })
             .collect();
         Self::with_harmonics(&harmonics)
+    }
+
+    /// Adds a_m cos(m · angle + p_m) for the harmonic `number` (>= 1), by its parts: `cosine` · cos(m · angle) + `sine` · sin(m · angle).
+    pub fn add_harmonic(&mut self, number: u32, cosine: f64, sine: f64) {
+        let amplitude = libm::hypot(cosine, sine);
+        self.harmonics.push(Harmonic { number, amplitude, phase_rad: libm::atan2(-sine, cosine) });
+    }
+
+    /// The harmonics, the fundamental among them.
+    pub fn harmonics(&self) -> &[Harmonic] {
+        &self.harmonics
+    }
+
+    /// Parts of cos(m · angle) and sin(m · angle) for m = 1, 2, … up to the highest harmonic.
+    fn parts(&self) -> Vec<(f64, f64)> {
+        let highest = self.harmonics.iter().map(|h| h.number).max().unwrap_or(0) as usize;
+        let mut parts = vec![(0.0, 0.0); highest];
+        for harmonic in self.harmonics.iter().filter(|h| h.number > 0) {
+            let (cosine, sine) = cos_sin(harmonic.phase_rad);
+            let part = &mut parts[harmonic.number as usize - 1];
+            part.0 += harmonic.amplitude * cosine;
+            part.1 -= harmonic.amplitude * sine;
+        }
+        parts
+    }
+
+    /// Adds to `sum_dn`, a pixel at a time, amplitude · waveform(angle − phase).
+    pub fn add(&self, amplitude_dn: &[f64], phase_rad: &[f64], angle_rad: f64, sum_dn: &mut [f64]) {
+        let parts = self.parts();
+        for ((sum, amplitude), phase) in sum_dn.iter_mut().zip(amplitude_dn).zip(phase_rad) {
+            let (cosine, sine) = cos_sin(angle_rad - phase);
+            // cos(m a) and sin(m a) from those of (m − 1) a.
+            let (mut c, mut s, mut waveform) = (1.0, 0.0, 0.0);
+            for (in_phase, quadrature) in &parts {
+                (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
+                waveform += in_phase * c + quadrature * s;
+            }
+            *sum += amplitude * waveform;
+        }
     }
 
     /// Σ a_m cos(m · angle + p_m): the waveform at `angle_rad`, relative to the fundamental's amplitude.

@@ -7,15 +7,27 @@
 //! Absent so far: exposure times that blur a moving edge, pixels that see two surfaces at once, several light paths,
 //! charge that stays behind, drift, and sensors that are not linear.
 
+mod chain;
 mod correlation;
+mod effect;
+pub mod effects;
+mod exposure;
+mod pixels;
 mod scene;
 mod sensor;
 mod shape;
+mod trig;
 
+pub use chain::{Chain, Memory};
 pub use correlation::{Correlation, Harmonic};
+pub use effect::{Active, Chance, Effect, Parameter, Place};
+pub use effects::EFFECTS;
+pub use exposure::{Exposure, Included, Moment};
+pub use pixels::Pixels;
 pub use scene::{Object, Scene, Surface};
 pub use sensor::{Light, Sensor};
 pub use shape::{Hit, Shape, Vector};
+pub use trig::cos_sin;
 
 use crate::frames::RawSets;
 use crate::problem::{Problem, Result};
