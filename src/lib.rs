@@ -30,7 +30,8 @@
 //! | [`proof`] | what the checks are worth: mutants of the RTL, coverage, formal proofs |
 //! | [`recording`] | the recording format, read and written |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
-//! | [`physics`] | the forward simulator of raw frames |
+//! | [`physics`] | the forward simulator of raw frames, and its effects, one file each |
+//! | [`bench`] | recordings and the simulator together: campaigns, what each effect does to perfect data |
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
@@ -45,6 +46,7 @@
 //! `tests/architecture.rs` asserts each of these sentences.
 
 pub mod artifact;
+pub mod bench;
 pub mod cli;
 pub mod cosim;
 pub mod fields;

@@ -14,11 +14,12 @@ const EDGES: &Edges = &[
     ("main", "cli"),
     (
         "cli",
-        "artifact cosim frames hdl model package physics problem proof ranging recording reference report spec sweep synthesis \
-         units",
+        "artifact bench cosim frames hdl model package physics problem proof ranging recording reference report spec sweep \
+         synthesis units",
     ),
     ("package", "artifact hdl report spec units"),
-    ("report", "frames hdl problem spec sweep synthesis units"),
+    ("report", "bench frames hdl physics problem spec sweep synthesis units"),
+    ("bench", "frames physics problem recording spec units"),
     ("ranging", "problem recording reference units"),
     ("proof", "artifact cosim frames hdl problem spec"),
     ("sweep", "model physics problem spec units"),
@@ -43,7 +44,7 @@ const LAYERS: &[&str] = &[
     "cli",
     "package proof report",
     "ranging",
-    "sweep synthesis",
+    "bench sweep synthesis",
     "cosim hdl physics recording",
     "model reference",
     "spec frames units",

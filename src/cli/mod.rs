@@ -1,5 +1,6 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
+mod atlas;
 mod campaign;
 mod coverage;
 mod demo;
@@ -11,6 +12,7 @@ mod process;
 mod progress;
 mod prove;
 mod scene;
+mod simulate;
 mod stimulus;
 mod sweep;
 mod synth;
@@ -39,6 +41,8 @@ enum Command {
     Process(process::Process),
     Explain(explain::Explain),
     Scene(scene::Scene),
+    Simulate(Box<simulate::Simulate>),
+    Atlas(atlas::Atlas),
     Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
     Synth(synth::Synth),
@@ -57,6 +61,8 @@ impl Arguments {
             Command::Process(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
+            Command::Simulate(command) => command.run(),
+            Command::Atlas(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Synth(command) => command.run(),

@@ -1,6 +1,7 @@
 //! Results as a person reads them: tables, and pictures of plain numbers.
 
 mod angle_explanation;
+mod atlas;
 mod colour_map;
 mod error_maps;
 mod explanation;
@@ -11,6 +12,7 @@ mod svg;
 mod sweep;
 mod synthesis;
 
+pub use atlas::{atlas_index, effect_picture};
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
 pub use explanation::{Section, explanation, sections};
