@@ -2,10 +2,11 @@
 
 use super::camera::{FREQUENCY_HZ, chain, practice_camera, sensor};
 use super::course::Course;
+use super::injection::included_without;
 use super::simulation::Simulation;
 use crate::frames::Geometry;
-use crate::physics::{Active, Chain, Effect, Sensor, Stage};
-use crate::recording::{Kind, SetRow};
+use crate::physics::{Active, Chain, Effect, Pixels, Sensor, Stage};
+use crate::recording::{Camera, Kind, SetRow};
 use crate::spec::{SCHEMES, Scheme};
 use crate::units::{unambiguous_range_m, wrap_rad};
 use num_complex::Complex64;
@@ -38,18 +39,25 @@ pub struct Residuals {
 }
 
 impl Residuals {
-    /// The largest error of the range in mm, of all curves and pixels.
+    /// The largest error of the range in mm, of all curves.
     pub fn largest_mm(&self) -> f64 {
         let curves = self.over_phase.iter().chain(&self.over_distance).flat_map(|line| &line.points);
-        curves.map(|(_, mm)| mm).chain(&self.over_pixels).fold(0.0, |most, mm| mm.abs().max(most))
+        curves.fold(0.0, |most, (_, mm)| mm.abs().max(most))
     }
 }
 
-/// A camera whose data are perfect: a sinusoidal correlation, no noise, nothing that changes during a set.
+/// A camera whose data are perfect: a sinusoidal correlation, no noise, and nothing that its simulation would not know.
 #[derive(Debug, Clone)]
 pub struct Atlas {
-    perfect: Chain,
+    camera: Camera,
     sensor: Sensor,
+    pixels: Arc<Pixels>,
+}
+
+/// With an effect, and without.
+struct Pair {
+    flawed: Chain,
+    perfect: Chain,
 }
 
 /// Phasors Σ c_n I_n of all sets and pixels, `[set][pixel]`, of the signals that `chain` makes, without noise.
@@ -81,29 +89,30 @@ impl Default for Atlas {
         let mut camera = practice_camera(GEOMETRY);
         camera.correlation_amplitude.truncate(1);
         camera.correlation_phase_rad.truncate(1);
-        camera.included_physics.clear();
         let sensor = sensor(&camera);
         let pixels = Arc::new(Stage::bench().pixels(&sensor, 1));
-        Self { perfect: chain(&camera, pixels, Vec::new()), sensor }
+        Self { camera, sensor, pixels }
     }
 }
 
 impl Atlas {
     /// Columns and rows of [`Residuals::over_pixels`].
     pub fn geometry(&self) -> Geometry {
-        self.perfect.pixels.geometry
+        self.pixels.geometry
     }
 
-    /// Residuals of `effect` at its typical size, a scheme after the other.
+    /// Residuals of `effect` at the size of [`Effect::example`], a scheme after the other.
     pub fn residuals(&self, effect: &'static Effect) -> Vec<Residuals> {
-        let flawed =
-            Chain { effects: vec![Active { effect, values: effect.typical() }], ..self.perfect.clone() };
-        SCHEMES.iter().map(|scheme| self.of_scheme(&flawed, scheme)).collect()
+        let active = vec![Active { effect, values: effect.example() }];
+        let camera = included_without(self.camera.clone(), &active);
+        let of = |effects| chain(&camera, Arc::clone(&self.pixels), effects);
+        let pair = Pair { flawed: of(active), perfect: of(Vec::new()) };
+        SCHEMES.iter().map(|scheme| self.of_scheme(&pair, scheme)).collect()
     }
 
-    fn of_scheme(&self, flawed: &Chain, scheme: &Scheme) -> Residuals {
+    fn of_scheme(&self, pair: &Pair, scheme: &Scheme) -> Residuals {
         let sweep = course(scheme, (0..OFFSETS).map(|n| (STILL_M, 0.0, n as f64 * TAU / OFFSETS as f64)));
-        let over_phase = self.errors_mm(flawed, scheme, &sweep);
+        let over_phase = self.errors_mm(pair, scheme, &sweep);
         let turns = STILL_M / unambiguous_range_m(FREQUENCY_HZ);
         let mut phase_points: Vec<(f64, f64)> = (0..OFFSETS)
             .map(|n| ((turns - n as f64 / OFFSETS as f64).rem_euclid(1.0), self.mean(&over_phase[n])))
@@ -112,7 +121,7 @@ impl Atlas {
         let position_m = |n: usize| FROM_M + n as f64 * (TO_M - FROM_M) / (POSITIONS - 1) as f64;
         let over_distance = VELOCITIES_M_S.map(|(label, velocity_m_s)| {
             let course = course(scheme, (0..POSITIONS).map(|n| (position_m(n), velocity_m_s, 0.0)));
-            let errors = self.errors_mm(flawed, scheme, &course);
+            let errors = self.errors_mm(pair, scheme, &course);
             let points = errors.iter().enumerate().map(|(n, error)| (position_m(n), self.mean(error)));
             Line { label, points: points.collect() }
         });
@@ -121,7 +130,7 @@ impl Atlas {
                 scheme,
                 (0..OFFSETS).map(|n| (STILL_M, velocity_m_s, n as f64 * TAU / OFFSETS as f64)),
             );
-            Line { label, points: self.changes_dn(flawed, &course) }
+            Line { label, points: self.changes_dn(pair, &course) }
         };
         Residuals {
             scheme: scheme.name.to_string(),
@@ -133,10 +142,10 @@ impl Atlas {
     }
 
     /// Errors of the range, mm, `[set][pixel]`.
-    fn errors_mm(&self, flawed: &Chain, scheme: &Scheme, course: &Course) -> Vec<Vec<f64>> {
+    fn errors_mm(&self, pair: &Pair, scheme: &Scheme, course: &Course) -> Vec<Vec<f64>> {
         let mm_a_rad = 1e3 * unambiguous_range_m(course.frequency_hz) / TAU;
         let [flawed, perfect] =
-            [flawed, &self.perfect].map(|chain| phasors(chain, &self.sensor, scheme, course));
+            [&pair.flawed, &pair.perfect].map(|chain| phasors(chain, &self.sensor, scheme, course));
         let error =
             |(flawed, perfect): (&Complex64, &Complex64)| wrap_rad(flawed.arg() - perfect.arg()) * mm_a_rad;
         let sets = flawed.iter().zip(&perfect);
@@ -145,7 +154,7 @@ impl Atlas {
 
     /// Mean over the target's pixels.
     fn mean(&self, values: &[f64]) -> f64 {
-        let target = &self.perfect.pixels.target;
+        let target = &self.pixels.target;
         let (sum, count) = values
             .iter()
             .zip(target)
@@ -154,12 +163,12 @@ impl Atlas {
         sum / count
     }
 
-    fn changes_dn(&self, flawed: &Chain, course: &Course) -> Vec<(f64, f64)> {
+    fn changes_dn(&self, pair: &Pair, course: &Course) -> Vec<(f64, f64)> {
         let simulation =
             |chain| Simulation { chain, sensor: &self.sensor, noise: false, seed: 1, recording: 0 };
         let squares = |index: usize| {
             let [flawed, perfect] =
-                [flawed, &self.perfect].map(|chain| simulation(chain).signal(course, index));
+                [&pair.flawed, &pair.perfect].map(|chain| simulation(chain).signal(course, index));
             let squares: Vec<f64> = flawed.iter().zip(&perfect).map(|(a, b)| (a - b) * (a - b)).collect();
             self.mean(&squares)
         };

@@ -8,8 +8,8 @@ use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
 const ALSO_INCLUDED: [(&str, &str); 2] =
     [("axial_motion", AXIAL_MOTION), ("inverse_square_falloff", INVERSE_SQUARE_FALLOFF)];
 
-/// The effect that `text` names. Parameters that it does not name have their off value, all of them their typical one where it names
-/// none.
+/// The effect that `text` names. Parameters that it does not name have their off value; where it names none, all are those of
+/// [`Effect::example`].
 ///
 /// # Errors
 /// An unknown effect or parameter, and a value that is no number or beyond the parameter's bounds.
@@ -20,7 +20,7 @@ pub fn injection(text: &str) -> Result<Active> {
         Problem::at("--effect", format_args!("no effect is called {name}")).expected(names.join(", "))
     })?;
     if settings.is_empty() {
-        return Ok(Active { effect, values: effect.typical() });
+        return Ok(Active { effect, values: effect.example() });
     }
     let mut values = effect.off();
     for setting in settings.split(',') {

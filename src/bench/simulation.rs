@@ -1,10 +1,11 @@
-//! A course's frames, as many at a time as there are threads.
+//! A course's frames, as many sets at a time as there are threads.
 
 use super::course::Course;
 use crate::frames::RawSets;
-use crate::physics::{Chain, Draws, EFFECTS, Exposure, Memory, Moment, Sensor};
+use crate::physics::{Chain, Draws, EFFECTS, Exposure, Memory, Sensor};
 use crate::problem::{Problem, Result};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// A camera that takes frames.
 #[derive(Debug, Clone, Copy)]
@@ -41,40 +42,47 @@ impl Simulation<'_> {
         self.chain.effects.iter().map(|active| deviate(active.effect.name)).collect()
     }
 
-    /// The signal of frame number `index`, with the draws for its pixels, of which none is left out.
-    fn expose(&self, moment: Moment, before: Option<Moment>, index: usize) -> (Exposure, Vec<f64>) {
+    /// Frame number `index` of `course`, and the noise of its pixels; `before_dn` is what light brought to the frame before, where that
+    /// is known: it is simulated again where not, so that frames can be made in any order.
+    fn expose(
+        &self,
+        course: &Course,
+        index: usize,
+        before_dn: Option<Arc<Vec<f64>>>,
+    ) -> (Exposure, Vec<f64>) {
         let pixels = self.chain.pixels.count();
+        let moment = course.moment(index);
         let mut draws = self.draws(index);
         let deviates = self.deviates(&draws);
-        let noise =
-            if self.noise || self.chain.draws_for_pixels() { draws.rest.normal(pixels) } else { Vec::new() };
-        let pixel_deviates =
-            if self.chain.draws_for_pixels() { draws.rest.normal(pixels) } else { Vec::new() };
-        // What the frame before left behind: it is simulated again, so that frames can be made in any order.
-        let before_dn = before.filter(|_| moment.follows && self.chain.looks_back()).map(|before| {
-            let deviates = self.deviates(&self.draws(index - 1));
-            // Draws for pixels act at the read-out only, behind what is asked for here.
-            let memory =
-                Memory { deviates, pixel_deviates: vec![0.0; pixel_deviates.len()], ..Memory::default() };
-            self.chain.expose(before, memory).arrived_dn
+        let for_pixels = self.chain.draws_for_pixels();
+        let noise = if self.noise || for_pixels { draws.rest.normal(pixels) } else { Vec::new() };
+        let pixel_deviates = if for_pixels { draws.rest.normal(pixels) } else { Vec::new() };
+        let before_dn = (moment.follows && self.chain.looks_back()).then(|| {
+            before_dn.unwrap_or_else(|| {
+                let deviates = self.deviates(&self.draws(index - 1));
+                self.chain.arrive(course.moment(index - 1), Memory { deviates, ..Memory::default() })
+            })
         });
         (self.chain.expose(moment, Memory { before_dn, deviates, pixel_deviates }), noise)
     }
 
     /// The signal of frame number `index` of `course`, DN above the pedestal, before noise and converter.
     pub fn signal(&self, course: &Course, index: usize) -> Vec<f64> {
-        let before = index.checked_sub(1).map(|before| course.moment(before));
-        self.expose(course.moment(index), before, index).0.signal_dn
+        self.expose(course, index, None).0.signal_dn
     }
 
-    fn codes(&self, course: &Course, index: usize, codes: &mut [u32]) {
-        let before = index.checked_sub(1).map(|before| course.moment(before));
-        let (exposure, noise) = self.expose(course.moment(index), before, index);
-        self.sensor.read_out(&exposure.signal_dn, self.noise.then_some(&*noise), codes);
+    /// The codes of set number `set`, `[frame, pixel]`.
+    fn set(&self, course: &Course, set: usize, codes: &mut [u32]) {
+        let mut before_dn = None;
+        for (frame, codes) in codes.chunks_mut(self.chain.pixels.count()).enumerate() {
+            let (exposure, noise) = self.expose(course, set * course.frames() + frame, before_dn);
+            self.sensor.read_out(&exposure.signal_dn, self.noise.then_some(&*noise), codes);
+            before_dn = Some(exposure.arrived_dn);
+        }
     }
 }
 
-/// The raw frames of `course`. `tell` hears of every frame that is done.
+/// The raw frames of `course`. `tell` hears of every set that is done.
 ///
 /// The codes depend on the simulation alone, not on machine or number of threads.
 ///
@@ -83,8 +91,8 @@ impl Simulation<'_> {
 pub fn simulate(simulation: &Simulation, course: &Course, tell: &(dyn Fn() + Sync)) -> Result<RawSets> {
     let pixels = simulation.chain.pixels.count();
     let mut codes = vec![0; pixels * course.count()];
-    codes.par_chunks_mut(pixels.max(1)).enumerate().for_each(|(index, frame)| {
-        simulation.codes(course, index, frame);
+    codes.par_chunks_mut((pixels * course.frames()).max(1)).enumerate().for_each(|(set, codes)| {
+        simulation.set(course, set, codes);
         tell();
     });
     RawSets::new(simulation.chain.pixels.geometry, course.frames(), codes).ok_or_else(|| {

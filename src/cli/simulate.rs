@@ -116,10 +116,10 @@ impl Simulate {
                 seed: self.seed,
                 recording: number,
             };
-            let raw = progress::counted("frames", |tell| {
+            let raw = progress::counted("sets", |tell| {
                 let done = AtomicUsize::new(0);
                 simulate(&simulation, course, &|| {
-                    tell(done.fetch_add(1, Ordering::Relaxed) + 1, course.count())
+                    tell(done.fetch_add(1, Ordering::Relaxed) + 1, course.sets.len())
                 })
             })?;
             let recording = Recording {
@@ -176,7 +176,7 @@ fn frames_per_second() -> Result<ExitCode> {
     let mut course = plan.course("wdft-motion")?;
     course.sets.truncate(SETS);
     let pixels = Arc::new(Stage::bench().pixels(&sensor, 1));
-    let every = EFFECTS.iter().map(|effect| Active { effect, values: effect.typical() }).collect();
+    let every = EFFECTS.iter().map(|effect| Active { effect, values: effect.example() }).collect();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     for (what, effects) in [("no effect", Vec::new()), ("all effects at once", every)] {
         let chain: Chain = chain(&camera, Arc::clone(&pixels), effects);

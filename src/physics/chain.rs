@@ -31,14 +31,17 @@ pub struct Memory {
 }
 
 impl Chain {
-    /// The frame at `moment`, before noise and converter. Gives also what the next frame's memory is made of.
+    /// The frame at `moment`, before noise and converter; [`Exposure::arrived_dn`] is what the next frame's memory is made of.
     pub fn expose(&self, moment: Moment, memory: Memory) -> Exposure {
-        let mut exposure = Exposure::new(moment, &self.pixels, self.included, &self.correlation);
-        exposure.before_dn = memory.before_dn;
-        exposure.deviates = memory.deviates;
-        exposure.pixel_deviates = memory.pixel_deviates;
+        let mut exposure = self.begin(moment, memory);
         self.run(&mut exposure, Place::Encoder);
         exposure
+    }
+
+    fn begin(&self, moment: Moment, memory: Memory) -> Exposure {
+        let Memory { before_dn, deviates, pixel_deviates } = memory;
+        let exposure = Exposure::new(moment, &self.pixels, self.included, &self.correlation);
+        Exposure { before_dn, deviates, pixel_deviates, ..exposure }
     }
 
     /// Whether a frame needs the light of the one before.
@@ -51,9 +54,20 @@ impl Chain {
         self.effects.iter().any(|active| active.effect.chance == Chance::Pixel)
     }
 
+    /// What light brings to the pixels at `moment`, before charge goes anywhere, DN.
+    pub fn arrive(&self, moment: Moment, memory: Memory) -> Arc<Vec<f64>> {
+        let mut exposure = self.begin(moment, memory);
+        self.run_between(&mut exposure, Place::Encoder, Place::Correlation);
+        Arc::new(exposure.signal_dn)
+    }
+
     /// Takes `exposure` from `first`, whose own step is done again, to the end of the chain.
     pub fn run(&self, exposure: &mut Exposure, first: Place) {
-        for place in Place::ALL.into_iter().filter(|&place| place >= first) {
+        self.run_between(exposure, first, Place::Readout);
+    }
+
+    fn run_between(&self, exposure: &mut Exposure, first: Place, last: Place) {
+        for place in Place::ALL.into_iter().filter(|place| (first..=last).contains(place)) {
             match place {
                 Place::Encoder | Place::Clock | Place::Waveform | Place::Readout => {}
                 Place::Path => exposure.look(),

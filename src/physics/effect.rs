@@ -128,6 +128,17 @@ impl Effect {
         };
         self.parameters.iter().map(value).collect()
     }
+
+    /// Values of its usual size that show it: typical ones of both signs. Like values of like parameters, such as the gains of all
+    /// frames, would cancel.
+    pub fn example(&self) -> Vec<f64> {
+        const SIGNS: [f64; 4] = [1.0, -1.0, -1.0, 1.0];
+        let value = |(number, p): (usize, &Parameter)| {
+            let signed = p.off + SIGNS[number % SIGNS.len()] * p.typical;
+            if p.is_shape() { p.off } else { signed.clamp(p.bounds.0, p.bounds.1) }
+        };
+        self.parameters.iter().enumerate().map(value).collect()
+    }
 }
 
 /// An effect with values for its parameters.

@@ -16,18 +16,18 @@ const STEP: f64 = (WIDTH - 2.0 * MARGIN - PANEL.0 - AXIS) / 3.0;
 const AXIS: f64 = 54.0;
 const ROW: f64 = PANEL.1 + 76.0;
 
-/// The parameters at their typical size, such as "share 0.01".
+/// The parameters at the size that is shown, such as "share 0.01".
 fn values(effect: &Effect) -> String {
-    let typical = effect.typical();
+    let example = effect.example();
     let shown = |(parameter, value): (&Parameter, &f64)| {
         let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
         format!("{} {value}{unit}", parameter.name)
     };
-    let all: Vec<String> = effect.parameters.iter().zip(&typical).map(shown).collect();
+    let all: Vec<String> = effect.parameters.iter().zip(&example).map(shown).collect();
     all.join(", ")
 }
 
-/// An SVG of what `effect` at its typical size does to perfect data: a row a scheme, over phase, distance, frame and pixel.
+/// An SVG of what `effect` at its usual size does to perfect data: a row a scheme, over phase, distance, frame and pixel.
 pub fn effect_picture(effect: &Effect, residuals: &[Residuals], geometry: Geometry) -> String {
     let height = TOP + residuals.len() as f64 * ROW;
     let mut svg = Svg::begin(height, effect.name, effect.sentence);
@@ -99,11 +99,10 @@ fn panel(svg: &mut Svg, (left, top): (f64, f64), lines: &[Line], abscissa: &str,
 }
 
 /// The atlas's page in Markdown: each effect with its sentence, parameters, reference and picture, and the largest error that its
-/// typical size makes with each scheme.
+/// usual size makes with each scheme.
 pub fn atlas_index(effects: &[(&Effect, Vec<Residuals>)]) -> String {
     let mut page = String::from(
-        "# Atlas of effects\n\nEach effect alone, at its typical size, on perfect data: a sinusoidal correlation, no noise, a target that stands still \
-         during a set.\nA residual is the result with the effect less the result without it; errors are means over the target's pixels, but for the map.\n\n\
+        "# Atlas of effects\n\nEach effect alone, at its usual size, on perfect data: a sinusoidal correlation, no noise.\nA residual is the result with the effect less the result without it; errors are means over the target's pixels, but for the map.\n\n\
          | effect | place | largest error, four frames | WDFT |\n| --- | --- | --- | --- |\n",
     );
     for (effect, residuals) in effects {

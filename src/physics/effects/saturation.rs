@@ -7,7 +7,7 @@ pub static EFFECT: Effect = Effect {
     name: "saturation",
     sentence: "Pixels saturate below the converter's full scale: the brightest frames are clipped.",
     reference: "I = min(I, I_max)",
-    parameters: &[Parameter::strength("missing", "1", 0.0, (0.0, 0.95), 0.3)],
+    parameters: &[Parameter::strength("missing", "1", 0.0, (0.0, 0.95), 0.6)],
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
