@@ -28,7 +28,7 @@ pub struct Line {
 pub struct Residuals {
     /// The scheme.
     pub scheme: String,
-    /// Error of the range, mm, over the phase in turns: a still target, the phase offset stepped.
+    /// Error of the range, mm, over the phase in turns, the phase offset stepped: still, and moving both ways.
     pub over_phase: Vec<Line>,
     /// The same over the distance in m: still, and moving both ways.
     pub over_distance: Vec<Line>,
@@ -111,13 +111,17 @@ impl Atlas {
     }
 
     fn of_scheme(&self, pair: &Pair, scheme: &Scheme) -> Residuals {
-        let sweep = course(scheme, (0..OFFSETS).map(|n| (STILL_M, 0.0, n as f64 * TAU / OFFSETS as f64)));
-        let over_phase = self.errors_mm(pair, scheme, &sweep);
+        let offset_rad = |n: usize| n as f64 * TAU / OFFSETS as f64;
+        let sweep =
+            |velocity_m_s| course(scheme, (0..OFFSETS).map(|n| (STILL_M, velocity_m_s, offset_rad(n))));
         let turns = STILL_M / unambiguous_range_m(FREQUENCY_HZ);
-        let mut phase_points: Vec<(f64, f64)> = (0..OFFSETS)
-            .map(|n| ((turns - n as f64 / OFFSETS as f64).rem_euclid(1.0), self.mean(&over_phase[n])))
-            .collect();
-        phase_points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let over_phase = VELOCITIES_M_S.map(|(label, velocity_m_s)| {
+            let errors = self.errors_mm(pair, scheme, &sweep(velocity_m_s)).into_iter().enumerate();
+            let phase = |n: usize| (turns - n as f64 / OFFSETS as f64).rem_euclid(1.0);
+            let mut points: Vec<_> = errors.map(|(n, error)| (phase(n), self.mean(&error))).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            Line { label, points }
+        });
         let position_m = |n: usize| FROM_M + n as f64 * (TO_M - FROM_M) / (POSITIONS - 1) as f64;
         let over_distance = VELOCITIES_M_S.map(|(label, velocity_m_s)| {
             let course = course(scheme, (0..POSITIONS).map(|n| (position_m(n), velocity_m_s, 0.0)));
@@ -125,19 +129,17 @@ impl Atlas {
             let points = errors.iter().enumerate().map(|(n, error)| (position_m(n), self.mean(error)));
             Line { label, points: points.collect() }
         });
-        let changes = |(label, velocity_m_s): (&'static str, f64)| {
-            let course = course(
-                scheme,
-                (0..OFFSETS).map(|n| (STILL_M, velocity_m_s, n as f64 * TAU / OFFSETS as f64)),
-            );
-            Line { label, points: self.changes_dn(pair, &course) }
+        let changes = |(label, velocity_m_s): (&'static str, f64)| Line {
+            label,
+            points: self.changes_dn(pair, &sweep(velocity_m_s)),
         };
+        let still = course(scheme, [(STILL_M, 0.0, 0.0)].into_iter());
         Residuals {
             scheme: scheme.name.to_string(),
-            over_phase: vec![Line { label: "still", points: phase_points }],
+            over_phase: over_phase.into(),
             over_distance: over_distance.into(),
             over_frame: VELOCITIES_M_S[..2].iter().copied().map(changes).collect(),
-            over_pixels: over_phase[0].clone(),
+            over_pixels: self.errors_mm(pair, scheme, &still).concat(),
         }
     }
 

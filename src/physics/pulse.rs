@@ -140,7 +140,7 @@ mod tests {
             let (correlation, constant_ratio) =
                 Correlation::of_pulses(&light, &demodulation, FREQUENCY_HZ, 7).unwrap();
             let (light_in_time, demodulation_in_time) = (in_time(&light), in_time(&demodulation));
-            let lags = 64;
+            let lags = 512;
             let correlated: Vec<f64> = (0..lags)
                 .map(|lag| {
                     let shift = lag * STEPS / lags;
@@ -160,7 +160,7 @@ mod tests {
                 terms.sum()
             };
             let first = harmonic(1);
-            // Samples of the correlation alias harmonic 63 and up into these, and pulses have edges between samples.
+            // Pulses have edges between samples. Samples of the correlation alias harmonic 511 and up, 4e-6, into these.
             let tolerance = 3e-4;
             assert!((harmonic(0).re / 2.0 / first.norm() - constant_ratio).abs() < tolerance, "{light:?}");
             for h in correlation.harmonics() {

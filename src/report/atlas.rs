@@ -14,6 +14,8 @@ const PANEL: (f64, f64) = (170.0, 128.0);
 const STEP: f64 = (WIDTH - 2.0 * MARGIN - PANEL.0 - AXIS) / 3.0;
 /// Room for the numbers left of a panel.
 const AXIS: f64 = 54.0;
+/// Below a micrometre, or a thousandth of a code, a residual is none.
+const LEAST: f64 = 1e-3;
 const ROW: f64 = PANEL.1 + 76.0;
 
 /// The parameters at the size that is shown, such as "share 0.01".
@@ -42,7 +44,7 @@ pub fn effect_picture(effect: &Effect, residuals: &[Residuals], geometry: Geomet
         panel(&mut svg, (x(0.0), y), &row.over_phase, "phase, turns", "mm");
         panel(&mut svg, (x(1.0), y), &row.over_distance, "distance, m", "mm");
         panel(&mut svg, (x(2.0), y), &row.over_frame, "frame", "DN RMS");
-        let limit = error_limit(row.over_pixels.iter());
+        let limit = error_limit(row.over_pixels.iter()).max(LEAST);
         let uri = png_data_uri(geometry, &row.over_pixels, (-limit, limit), ColourMap::Diverging);
         svg.map([x(3.0), y], [PANEL.0, PANEL.1], "", &uri);
         let note = format!("pixel, \u{b1}{} mm, red farther", signed(limit).trim_start_matches('+'));
@@ -66,8 +68,7 @@ fn ends(values: impl Iterator<Item = f64>, least_span: f64) -> (f64, f64) {
 fn panel(svg: &mut Svg, (left, top): (f64, f64), lines: &[Line], abscissa: &str, unit: &str) {
     let points = || lines.iter().flat_map(|line| &line.points);
     let (x_low, x_high) = ends(points().map(|point| point.0), 1e-9);
-    // Below a micrometre, or a millionth of a code, a curve is flat.
-    let (y_low, y_high) = ends(points().map(|point| point.1).chain([0.0]), 1e-3);
+    let (y_low, y_high) = ends(points().map(|point| point.1).chain([0.0]), LEAST);
     let place = |&(x, y): &(f64, f64)| {
         let across = (x - x_low) / (x_high - x_low);
         let up = (y - y_low) / (y_high - y_low);
@@ -84,17 +85,18 @@ fn panel(svg: &mut Svg, (left, top): (f64, f64), lines: &[Line], abscissa: &str,
             placed.iter().for_each(|at| svg.dot(*at, 3.0, colour, line.label));
         }
         if lines.len() > 1 {
-            let x = left + 4.0 + number as f64 * 58.0;
+            let x = left - 10.0 + number as f64 * 68.0;
             svg.swatch(x, bottom + 42.0, colour);
             svg.text(x + 16.0, bottom + 52.0, "soft", line.label);
         }
     }
     let plain = |value: f64| format!("{}", (value * 1e3).round() / 1e3);
+    let short = |value: f64| format!("{}", (value * 1e2).round() / 1e2);
     svg.text(left - 6.0, top + 10.0, "soft end", &plain(y_high));
     svg.text(left - 6.0, bottom, "soft end", &plain(y_low));
     svg.text(left - 6.0, top + PANEL.1 / 2.0 + 4.0, "soft end", unit);
-    svg.text(left, bottom + 17.0, "soft", &plain(x_low));
-    svg.text(left + PANEL.0, bottom + 17.0, "soft end", &plain(x_high));
+    svg.text(left, bottom + 17.0, "soft", &short(x_low));
+    svg.text(left + PANEL.0, bottom + 17.0, "soft end", &short(x_high));
     svg.text(left + PANEL.0 / 2.0, bottom + 34.0, "soft middle", abscissa);
 }
 
