@@ -9,7 +9,7 @@ use std::sync::Arc;
 use support::{hdl_tool, said};
 use vuris::bench::{Course, Plan, Simulation, chain, injection, practice_camera, sensor, simulate};
 use vuris::frames::Geometry;
-use vuris::physics::{Active, EFFECTS, Stage};
+use vuris::physics::{Active, EFFECTS, Place, Stage};
 use vuris::recording::{Kind, Recording};
 
 fn vuris(arguments: &[&str], out: &Path, threads: &str) -> (bool, String) {
@@ -246,5 +246,29 @@ fn refusals_say_what_would_be_right() {
         let (good, text) = vuris(&arguments, &out, "1");
         assert!(!good && text.contains(words), "{text}");
         assert!(!out.exists(), "{arguments:?} left something");
+    }
+}
+
+/// docs/simulator.md lists every effect at its place, and the atlas's table is what the command prints.
+#[test]
+fn the_notes_show_the_registry_and_what_the_atlas_prints() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let notes = std::fs::read_to_string(root.join("docs/simulator.md")).unwrap();
+    let places = ["encoder", "clock", "path", "light", "waveform", "correlation", "charge", "read-out"]
+        .map(|p| format!("| {p} | "));
+    for effect in EFFECTS {
+        let place = Place::ALL.iter().position(|place| *place == effect.place).unwrap();
+        let row = notes.lines().find(|line| line.starts_with(&places[place])).unwrap();
+        assert!(row.contains(&format!("`{}`", effect.name)), "{} is not in the row: {row}", effect.name);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    Command::cargo_bin("vuris").unwrap().arg("atlas").arg("--out").arg(folder.path()).assert().success();
+    let page = std::fs::read_to_string(folder.path().join("atlas.md")).unwrap();
+    let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| [")).collect();
+    assert_eq!(rows.len(), EFFECTS.len());
+    for (row, effect) in rows.iter().zip(EFFECTS) {
+        let shown = row.replace(&format!("[{0}](#{0})", effect.name), &format!("`{}`", effect.name));
+        assert!(notes.lines().any(|line| line == shown), "docs/simulator.md does not show\n{shown}");
+        assert!(folder.path().join(format!("effects/{}.svg", effect.name)).is_file());
     }
 }

@@ -68,16 +68,27 @@ impl Correlation {
 
     /// Adds to `sum_dn`, a pixel at a time, amplitude · waveform(angle − phase).
     pub fn add(&self, amplitude_dn: &[f64], phase_rad: &[f64], angle_rad: f64, sum_dn: &mut [f64]) {
+        // Pixels in blocks, harmonic after harmonic: so the compiler does several pixels at once.
+        const BLOCK: usize = 64;
         let parts = self.parts();
-        for ((sum, amplitude), phase) in sum_dn.iter_mut().zip(amplitude_dn).zip(phase_rad) {
-            let (cosine, sine) = cos_sin(angle_rad - phase);
-            // cos(m a) and sin(m a) from those of (m − 1) a.
-            let (mut c, mut s, mut waveform) = (1.0, 0.0, 0.0);
-            for (in_phase, quadrature) in &parts {
-                (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
-                waveform += in_phase * c + quadrature * s;
+        let blocks = sum_dn.chunks_mut(BLOCK).zip(amplitude_dn.chunks(BLOCK)).zip(phase_rad.chunks(BLOCK));
+        for ((sum, amplitude), phase) in blocks {
+            let (mut first, mut turned) = ([(0.0, 0.0); BLOCK], [(1.0, 0.0); BLOCK]);
+            let mut waveform = [0.0; BLOCK];
+            for (first, phase) in first.iter_mut().zip(phase) {
+                *first = cos_sin(angle_rad - phase);
             }
-            *sum += amplitude * waveform;
+            for (in_phase, quadrature) in &parts {
+                for ((waveform, turned), (cosine, sine)) in waveform.iter_mut().zip(&mut turned).zip(&first) {
+                    // cos(m a) and sin(m a) from those of (m − 1) a.
+                    let (c, s) = *turned;
+                    *turned = (c * cosine - s * sine, s * cosine + c * sine);
+                    *waveform += in_phase * turned.0 + quadrature * turned.1;
+                }
+            }
+            for ((sum, amplitude), waveform) in sum.iter_mut().zip(amplitude).zip(&waveform) {
+                *sum += amplitude * waveform;
+            }
         }
     }
 
@@ -92,6 +103,22 @@ impl Correlation {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Many pixels at once are each pixel by itself, in blocks and beyond them.
+    #[test]
+    fn many_pixels_are_each_pixel() {
+        let mut waveform = Correlation::measured();
+        waveform.add_harmonic(3, 0.02, -0.01);
+        let phase_rad: Vec<f64> = (0..150).map(|n| f64::from(n) * 0.37 - 9.0).collect();
+        let amplitude_dn: Vec<f64> = (0..150).map(|n| 10.0 + f64::from(n)).collect();
+        let mut sum_dn = vec![5.0; 150];
+        waveform.add(&amplitude_dn, &phase_rad, 1.234, &mut sum_dn);
+        for ((sum, amplitude), phase) in sum_dn.iter().zip(&amplitude_dn).zip(&phase_rad) {
+            let third = 0.02 * libm::cos(3.0 * (1.234 - phase)) - 0.01 * libm::sin(3.0 * (1.234 - phase));
+            let expected = 5.0 + amplitude * (Correlation::measured().at(1.234 - phase) + third);
+            assert!((sum - expected).abs() < 1e-10, "{phase}: {sum}, not {expected}");
+        }
+    }
 
     #[test]
     fn the_measured_waveform_has_the_tables_amplitudes() {

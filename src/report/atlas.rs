@@ -16,7 +16,7 @@ const STEP: f64 = (WIDTH - 2.0 * MARGIN - PANEL.0 - AXIS) / 3.0;
 const AXIS: f64 = 54.0;
 /// Below a micrometre, or a thousandth of a code, a residual is none.
 const LEAST: f64 = 1e-3;
-const ROW: f64 = PANEL.1 + 76.0;
+const ROW: f64 = PANEL.1 + 88.0;
 
 /// The parameters at the size that is shown, such as "share 0.01".
 fn values(effect: &Effect) -> String {
