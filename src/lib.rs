@@ -31,7 +31,7 @@
 //! | [`recording`] | the recording format, read and written |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
 //! | [`physics`] | the forward simulator of raw frames, and its effects, one file each |
-//! | [`bench`] | recordings and the simulator together: campaigns, what each effect does to perfect data |
+//! | [`bench`](mod@bench) | recordings and the simulator together: campaigns, what each effect does to perfect data |
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |

@@ -240,7 +240,8 @@ fn refusals_say_what_would_be_right() {
         (vec!["--light", "0.5"], "--demodulation"),
         (vec!["--light", "1.5", "--demodulation", "0.5"], "light: duty = 1.5"),
         (vec!["--size", "0x5"], "columns x rows"),
-        (vec!["--frequency", "nan"], "--frequency: NaN"),
+        (vec!["--frequency-hz", "nan"], "--frequency-hz: NaN"),
+        (vec!["--recordings", "four-dark,harmonics,four-dark"], "four-dark is there twice"),
     ] {
         let out = folder.path().join("campaign");
         let (good, text) = vuris(&arguments, &out, "1");

@@ -46,10 +46,10 @@ pub(super) struct Simulate {
     recordings: Vec<String>,
     /// Modulation frequency, Hz
     #[arg(long, value_name = "HZ", default_value_t = FREQUENCY_HZ)]
-    frequency: f64,
+    frequency_hz: f64,
     /// From the start of a frame to the start of the next, s
     #[arg(long, value_name = "S", default_value_t = 0.025)]
-    frame_period: f64,
+    frame_period_s: f64,
     /// Print how fast this machine simulates sets of 160 x 120 x 5, and nothing else
     #[arg(long, conflicts_with = "out")]
     frames_per_second: bool,
@@ -94,11 +94,16 @@ impl Simulate {
                 || Problem::at(name, found).expected(format_args!("a number from {low:e} to {high:e}"));
             if (low..=high).contains(&value) { Ok(()) } else { Err(problem()) }
         };
-        in_range("--frequency", self.frequency, 1e4, 1e10)?;
-        in_range("--frame-period", self.frame_period, 1e-6, 100.0)?;
+        in_range("--frequency-hz", self.frequency_hz, 1e4, 1e10)?;
+        in_range("--frame-period-s", self.frame_period_s, 1e-6, 100.0)?;
         let (camera, sensor) = self.camera(&effects)?;
-        let plan = Plan { frequency_hz: self.frequency, frame_period_s: self.frame_period, seed: self.seed };
+        let plan =
+            Plan { frequency_hz: self.frequency_hz, frame_period_s: self.frame_period_s, seed: self.seed };
         let names = if self.recordings.is_empty() { Plan::names() } else { self.recordings.clone() };
+        if let Some(twice) = (1..names.len()).find(|&n| names[..n].contains(&names[n])) {
+            return Err(Problem::at("--recordings", format_args!("{} is there twice", names[twice]))
+                .expected("each recording once"));
+        }
         let courses: Vec<Course> = names.iter().map(|name| plan.course(name)).collect::<Result<_>>()?;
         if let Some(present) = names.iter().map(|name| out.join(name)).find(|folder| folder.exists()) {
             return Err(Problem::in_file(&present, "is there already").expected("a new campaign"));
@@ -156,7 +161,7 @@ impl Simulate {
         let mut constant_ratio = None;
         if let (Some(light), Some(demodulation)) = (&self.light, &self.demodulation) {
             let (correlation, ratio) =
-                Correlation::of_pulses(light, demodulation, self.frequency, HARMONICS)?;
+                Correlation::of_pulses(light, demodulation, self.frequency_hz, HARMONICS)?;
             camera.correlation_amplitude = correlation.harmonics().iter().map(|h| h.amplitude).collect();
             camera.correlation_phase_rad = correlation.harmonics().iter().map(|h| h.phase_rad).collect();
             constant_ratio = Some(ratio);
