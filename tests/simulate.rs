@@ -161,6 +161,13 @@ for name in "four-rail wdft-sweep four-dark harmonics wdft-motion".split():
         error = np.angle(np.exp(1j * (np.arctan2(s, c) - phi.ravel())))
         errors.append(error[mask.ravel() == 1].mean())
     rms = float(np.sqrt(np.mean(np.square(errors))))
+    if told["kind"] == "harmonics":
+        # Harmonic m of I_n is A a_m exp(i (p_m - m phi)).
+        parts = np.fft.fft(frames[:, :, mask == 1].astype(float), axis=1)
+        turned = parts[:, 1] / np.abs(parts[:, 1])
+        for m, (a, p) in enumerate(zip(camera["correlation"]["amplitude"], camera["correlation"]["phase_rad"]), 1):
+            found = (parts[:, m] / turned ** m).sum() / np.abs(parts[:, 1]).sum()
+            assert abs(found - a * np.exp(1j * p)) < 0.001, (m, found, a, p)
     print(name, len(rows), round(1000 * rms, 1))
     assert rms < 0.03, (name, rms)
 "#;
