@@ -31,7 +31,8 @@
 //! | [`recording`] | the recording format, read and written |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
 //! | [`algorithms`] | phase algorithms: characteristic polynomials, verdicts, sensitivities, the design of rows |
-//! | [`physics`] | the forward simulator of raw frames |
+//! | [`physics`] | the forward simulator of raw frames, and its effects, one file each |
+//! | [`bench`](mod@bench) | recordings and the simulator together: campaigns, what each effect does to perfect data |
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
@@ -47,6 +48,7 @@
 
 pub mod algorithms;
 pub mod artifact;
+pub mod bench;
 pub mod cli;
 pub mod cosim;
 pub mod fields;

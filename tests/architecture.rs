@@ -14,12 +14,13 @@ const EDGES: &Edges = &[
     ("main", "cli"),
     (
         "cli",
-        "algorithms artifact cosim frames hdl model package physics problem proof ranging recording reference report spec sweep \
-         synthesis units",
+        "algorithms artifact bench cosim frames hdl model package physics problem proof ranging recording reference report spec \
+         sweep synthesis units",
     ),
     ("package", "artifact hdl report spec units"),
-    ("report", "algorithms frames hdl problem spec sweep synthesis units"),
+    ("report", "algorithms bench frames hdl physics problem spec sweep synthesis units"),
     ("algorithms", "problem spec units"),
+    ("bench", "frames physics problem recording spec units"),
     ("ranging", "problem recording reference units"),
     ("proof", "artifact cosim frames hdl problem spec"),
     ("sweep", "model physics problem spec units"),
@@ -44,7 +45,7 @@ const LAYERS: &[&str] = &[
     "cli",
     "package proof report",
     "ranging",
-    "sweep synthesis",
+    "bench sweep synthesis",
     "cosim hdl physics recording",
     "algorithms model reference",
     "spec frames units",

@@ -48,7 +48,7 @@ fn number_after(text: &str, before: &str) -> f64 {
 
 #[test]
 fn help_names_every_command_and_every_option() {
-    let commands: [(&str, &[&str]); 9] = [
+    let commands: [(&str, &[&str]); 11] = [
         (
             "algorithms",
             &["show", "design", "--json", "--out <DIR>", "--frequency-hz <HZ>", "--frame-ms <MS>"],
@@ -79,6 +79,23 @@ fn help_names_every_command_and_every_option() {
         ),
         ("explain", &["--spec <FILE|PRESET>", "--toml", "vuris-four-frame"]),
         ("scene", &["--out <DIR>", "--seed <SEED>"]),
+        (
+            "simulate",
+            &[
+                "--out <DIR>",
+                "--effect <NAME[:PARAMETER=VALUE,…]>",
+                "--camera <camera.toml>",
+                "--light <DUTY,EDGE_S,BANDWIDTH_HZ>",
+                "--demodulation <DUTY,EDGE_S,BANDWIDTH_HZ>",
+                "--size <WxH>",
+                "--seed <SEED>",
+                "--recordings <NAME>",
+                "--frequency-hz <HZ>",
+                "--frame-period-s <S>",
+                "--frames-per-second",
+            ],
+        ),
+        ("atlas", &["--out <DIR>"]),
         (
             "sweep",
             &[

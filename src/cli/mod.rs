@@ -1,6 +1,7 @@
 //! The command line: one file a command, each with its arguments, one call, and its printing.
 
 mod algorithms;
+mod atlas;
 mod campaign;
 mod coverage;
 mod demo;
@@ -12,6 +13,7 @@ mod process;
 mod progress;
 mod prove;
 mod scene;
+mod simulate;
 mod stimulus;
 mod sweep;
 mod synth;
@@ -40,6 +42,8 @@ enum Command {
     Process(process::Process),
     Explain(explain::Explain),
     Scene(scene::Scene),
+    Simulate(Box<simulate::Simulate>),
+    Atlas(atlas::Atlas),
     Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
     Synth(synth::Synth),
@@ -59,6 +63,8 @@ impl Arguments {
             Command::Process(command) => command.run(),
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
+            Command::Simulate(command) => command.run(),
+            Command::Atlas(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Synth(command) => command.run(),

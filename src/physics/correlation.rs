@@ -1,5 +1,7 @@
 //! The correlation waveform: what light and sensor make of the phase between them.
 
+use super::trig::cos_sin;
+
 /// The correlation of the modulated light with the sensor's own modulation, as harmonics of the modulation frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlation {
@@ -40,6 +42,56 @@ impl Correlation {
         Self::with_harmonics(&harmonics)
     }
 
+    /// Adds a_m cos(m · angle + p_m) for the harmonic `number` (>= 1), by its parts: `cosine` · cos(m · angle) + `sine` · sin(m · angle).
+    pub fn add_harmonic(&mut self, number: u32, cosine: f64, sine: f64) {
+        let amplitude = libm::hypot(cosine, sine);
+        self.harmonics.push(Harmonic { number, amplitude, phase_rad: libm::atan2(-sine, cosine) });
+    }
+
+    /// The harmonics, the fundamental among them.
+    pub fn harmonics(&self) -> &[Harmonic] {
+        &self.harmonics
+    }
+
+    /// Parts of cos(m · angle) and sin(m · angle) for m = 1, 2, … up to the highest harmonic.
+    fn parts(&self) -> Vec<(f64, f64)> {
+        let highest = self.harmonics.iter().map(|h| h.number).max().unwrap_or(0) as usize;
+        let mut parts = vec![(0.0, 0.0); highest];
+        for harmonic in self.harmonics.iter().filter(|h| h.number > 0) {
+            let (cosine, sine) = cos_sin(harmonic.phase_rad);
+            let part = &mut parts[harmonic.number as usize - 1];
+            part.0 += harmonic.amplitude * cosine;
+            part.1 -= harmonic.amplitude * sine;
+        }
+        parts
+    }
+
+    /// Adds to `sum_dn`, a pixel at a time, amplitude · waveform(angle − phase).
+    pub fn add(&self, amplitude_dn: &[f64], phase_rad: &[f64], angle_rad: f64, sum_dn: &mut [f64]) {
+        // Pixels in blocks, harmonic after harmonic: so the compiler does several pixels at once.
+        const BLOCK: usize = 64;
+        let parts = self.parts();
+        let blocks = sum_dn.chunks_mut(BLOCK).zip(amplitude_dn.chunks(BLOCK)).zip(phase_rad.chunks(BLOCK));
+        for ((sum, amplitude), phase) in blocks {
+            let (mut first, mut turned) = ([(0.0, 0.0); BLOCK], [(1.0, 0.0); BLOCK]);
+            let mut waveform = [0.0; BLOCK];
+            for (first, phase) in first.iter_mut().zip(phase) {
+                *first = cos_sin(angle_rad - phase);
+            }
+            for (in_phase, quadrature) in &parts {
+                for ((waveform, turned), (cosine, sine)) in waveform.iter_mut().zip(&mut turned).zip(&first) {
+                    // cos(m a) and sin(m a) from those of (m − 1) a.
+                    let (c, s) = *turned;
+                    *turned = (c * cosine - s * sine, s * cosine + c * sine);
+                    *waveform += in_phase * turned.0 + quadrature * turned.1;
+                }
+            }
+            for ((sum, amplitude), waveform) in sum.iter_mut().zip(amplitude).zip(&waveform) {
+                *sum += amplitude * waveform;
+            }
+        }
+    }
+
     /// Σ a_m cos(m · angle + p_m): the waveform at `angle_rad`, relative to the fundamental's amplitude.
     pub fn at(&self, angle_rad: f64) -> f64 {
         // The standard library's cosine is the platform's, and differs in its last bits from one to the next.
@@ -51,6 +103,22 @@ impl Correlation {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Many pixels at once are each pixel by itself, in blocks and beyond them.
+    #[test]
+    fn many_pixels_are_each_pixel() {
+        let mut waveform = Correlation::measured();
+        waveform.add_harmonic(3, 0.02, -0.01);
+        let phase_rad: Vec<f64> = (0..150).map(|n| f64::from(n) * 0.37 - 9.0).collect();
+        let amplitude_dn: Vec<f64> = (0..150).map(|n| 10.0 + f64::from(n)).collect();
+        let mut sum_dn = vec![5.0; 150];
+        waveform.add(&amplitude_dn, &phase_rad, 1.234, &mut sum_dn);
+        for ((sum, amplitude), phase) in sum_dn.iter().zip(&amplitude_dn).zip(&phase_rad) {
+            let third = 0.02 * libm::cos(3.0 * (1.234 - phase)) - 0.01 * libm::sin(3.0 * (1.234 - phase));
+            let expected = 5.0 + amplitude * (Correlation::measured().at(1.234 - phase) + third);
+            assert!((sum - expected).abs() < 1e-10, "{phase}: {sum}, not {expected}");
+        }
+    }
 
     #[test]
     fn the_measured_waveform_has_the_tables_amplitudes() {

@@ -4,25 +4,43 @@
 //! I_n = A_n Σ_m a_m cos(m (k δ − φ_n) + p_m) + B_n, where k is the frame's phase step, and φ_n, A_n and B_n are the
 //! pixel's phase, amplitude and offset at the frame's start: an object that moves changes all three from frame to frame.
 //!
-//! Absent so far: exposure times that blur a moving edge, pixels that see two surfaces at once, several light paths,
-//! charge that stays behind, drift, and sensors that are not linear.
+//! Two ways lead to frames, over one waveform, one sensor and one random stream a frame: [`simulate`] traces a [`Scene`] of moving
+//! objects; a [`Chain`] takes a target on a rail through places from encoder to code, at each of which effects of [`EFFECTS`] may act.
+//!
+//! Absent: exposure times that blur a moving edge.
 
+mod chain;
 mod correlation;
+mod draws;
+mod effect;
+pub mod effects;
+mod exposure;
+mod pixels;
+mod pulse;
 mod scene;
 mod sensor;
 mod shape;
+mod stage;
+mod trig;
 
+pub use chain::{Chain, Memory};
 pub use correlation::{Correlation, Harmonic};
+pub use draws::Draws;
+pub use effect::{Active, Chance, Effect, Parameter, Place};
+pub use effects::EFFECTS;
+pub use exposure::{Exposure, Included, Moment};
+pub use pixels::Pixels;
+pub use pulse::Pulse;
 pub use scene::{Object, Scene, Surface};
 pub use sensor::{Light, Sensor};
 pub use shape::{Hit, Shape, Vector};
+pub use stage::Stage;
+pub use trig::cos_sin;
 
 use crate::frames::RawSets;
 use crate::problem::{Problem, Result};
 use crate::spec::Scheme;
 use crate::units::phase_rad;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// How the raw frames are taken.
@@ -87,7 +105,7 @@ pub fn simulate(
         for frame in 0..frames_per_set {
             let step = acquisition.order[frame / acquisition.frames_per_step];
             let angle_rad = acquisition.scheme.angle_rad(step);
-            let mut noise = noise_seed.map(|seed| noise_of_frame(seed, set * frames_per_set + frame));
+            let mut noise = noise_seed.map(|seed| draws::source(seed, (set * frames_per_set + frame) as u64));
             for (pixel, surface) in view(acquisition.start_s(set, frame)).into_iter().enumerate() {
                 if object(surface) != object(middle[pixel]) {
                     true_m[pixel] = f64::NAN;
@@ -108,13 +126,6 @@ pub fn simulate(
         Problem::at("simulation", found).expected("at least one pixel, and one frame for every phase step")
     })?;
     Ok((frames, true_range_m))
-}
-
-/// The noise of raw frame number `frame` since the start: a stream of its own.
-fn noise_of_frame(seed: u64, frame: usize) -> ChaCha8Rng {
-    let mut source = ChaCha8Rng::seed_from_u64(seed);
-    source.set_stream(frame as u64);
-    source
 }
 
 #[cfg(test)]

@@ -69,6 +69,23 @@ impl Sensor {
         Light { amplitude_e, offset_e: self.constant_ratio * amplitude_e + self.ambient_e }
     }
 
+    /// Code of full scale above the pedestal, DN.
+    pub fn full_scale_dn(&self) -> f64 {
+        (u64::MAX >> (64 - self.adc_bits.clamp(1, 32))) as f64 - self.pedestal_dn
+    }
+
+    /// The codes of signals above the pedestal, DN, one a pixel; with `deviates` (one a pixel) shot and read noise.
+    pub fn read_out(&self, signal_dn: &[f64], deviates: Option<&[f64]>, codes: &mut [u32]) {
+        let charges_e = signal_dn.iter().map(|signal| signal * self.gain_e_per_dn);
+        match deviates {
+            None => codes.iter_mut().zip(charges_e).for_each(|(code, charge_e)| *code = self.code(charge_e)),
+            Some(deviates) => codes
+                .iter_mut()
+                .zip(charges_e.zip(deviates))
+                .for_each(|(code, (charge_e, deviate))| *code = self.noisy_code(charge_e, *deviate)),
+        }
+    }
+
     /// The code of a collected charge, without noise.
     pub fn code(&self, charge_e: f64) -> u32 {
         let code_dn = self.pedestal_dn + charge_e / self.gain_e_per_dn;

@@ -2,6 +2,7 @@
 
 mod algorithms;
 mod angle_explanation;
+mod atlas;
 mod colour_map;
 mod error_maps;
 mod explanation;
@@ -16,6 +17,7 @@ pub use algorithms::{
     Bench, algorithm_explanation, algorithms_json, algorithms_picture, algorithms_table, curves_csv,
     design_table, designs_json,
 };
+pub use atlas::{atlas_index, effect_picture};
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
 pub use explanation::{Section, explanation, sections};

@@ -1,0 +1,101 @@
+//! Effects as a command line names them: `name`, or `name:parameter=value,…`.
+
+use crate::physics::{Active, EFFECTS, Effect, Parameter, effects};
+use crate::problem::{Problem, Result};
+use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
+
+/// What the baseline can include, by the effect that stands for it where it is not.
+const ALSO_INCLUDED: [(&str, &str); 2] =
+    [("axial_motion", AXIAL_MOTION), ("inverse_square_falloff", INVERSE_SQUARE_FALLOFF)];
+
+/// The effect that `text` names. Parameters that it does not name have their off value; where it names none, all are those of
+/// [`Effect::example`].
+///
+/// # Errors
+/// An unknown effect or parameter, and a value that is no number or beyond the parameter's bounds.
+pub fn injection(text: &str) -> Result<Active> {
+    let (name, settings) = text.split_once(':').unwrap_or((text, ""));
+    let effect = effects::named(name).ok_or_else(|| {
+        let names: Vec<&str> = EFFECTS.iter().map(|effect| effect.name).collect();
+        Problem::at("--effect", format_args!("no effect is called {name}")).expected(names.join(", "))
+    })?;
+    if settings.is_empty() {
+        return Ok(Active { effect, values: effect.example() });
+    }
+    let mut values = effect.off();
+    for setting in settings.split(',') {
+        let (parameter, value) = setting.split_once('=').ok_or_else(|| {
+            Problem::at("--effect", format_args!("{name}: {setting}")).expected("parameter=value")
+        })?;
+        let number = place(effect, parameter)?;
+        values[number] = within(effect, &effect.parameters[number], value)?;
+    }
+    Ok(Active { effect, values })
+}
+
+fn place(effect: &Effect, parameter: &str) -> Result<usize> {
+    effect.parameters.iter().position(|known| known.name == parameter).ok_or_else(|| {
+        let names: Vec<&str> = effect.parameters.iter().map(|known| known.name).collect();
+        Problem::at("--effect", format_args!("{} has no parameter {parameter}", effect.name))
+            .expected(names.join(", "))
+    })
+}
+
+fn within(effect: &Effect, parameter: &Parameter, text: &str) -> Result<f64> {
+    let (low, high) = parameter.bounds;
+    text.parse().ok().filter(|value| (low..=high).contains(value)).ok_or_else(|| {
+        let found = format!("{}: {} = {text}", effect.name, parameter.name);
+        let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
+        Problem::at("--effect", found).expected(format_args!("a number from {low} to {high}{unit}"))
+    })
+}
+
+/// `camera` without what `effects` bring: an effect that the camera's simulation includes could not be found in its recordings.
+#[must_use]
+pub fn included_without(mut camera: Camera, effects: &[Active]) -> Camera {
+    camera.included_physics.retain(|included| {
+        let brought = |active: &Active| ALSO_INCLUDED.contains(&(active.effect.name, included));
+        !effects.iter().any(brought)
+    });
+    camera
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::practice_camera;
+    use crate::frames::Geometry;
+
+    #[test]
+    fn effects_are_named_with_values_or_without() {
+        let lag = injection("image_lag").unwrap();
+        assert_eq!((lag.effect.name, lag.values), ("image_lag", vec![0.01]));
+        let crosstalk = injection("electrical_crosstalk:sine_dn=-2.5").unwrap();
+        assert_eq!(crosstalk.values, [0.0, -2.5]);
+        let two = injection("multipath_interference:relative_amplitude=0.2,longer_by_m=1.5").unwrap();
+        assert_eq!(two.values, [0.2, 1.5]);
+    }
+
+    #[test]
+    fn what_does_not_exist_is_refused_with_what_does() {
+        for (text, words) in [
+            ("lag", "no effect is called lag"),
+            ("image_lag:shares=0.1", "image_lag has no parameter shares"),
+            ("image_lag:share=0.9", "image_lag: share = 0.9\n  expected: a number from 0 to 0.5"),
+            ("image_lag:share=NaN", "image_lag: share = NaN"),
+            ("image_lag:share", "parameter=value"),
+        ] {
+            let refusal = injection(text).unwrap_err().to_string();
+            assert!(refusal.contains(words), "{refusal}");
+        }
+    }
+
+    #[test]
+    fn an_injected_falloff_is_not_among_what_the_camera_includes() {
+        let camera = || practice_camera(Geometry { width: 24, height: 18 });
+        let falloff = [injection("inverse_square_falloff").unwrap()];
+        assert_eq!(included_without(camera(), &falloff).included_physics, [AXIAL_MOTION]);
+        let lag = [injection("image_lag").unwrap()];
+        assert_eq!(included_without(camera(), &lag), camera());
+    }
+}

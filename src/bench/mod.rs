@@ -1,0 +1,20 @@
+//! The bench: recordings and the forward simulator together, which know nothing of each other.
+//!
+//! A [`Course`] is when and where a recording's frames were or will be taken: from it come the simulator's [`Moment`]s. A [`Plan`] says
+//! which courses a campaign has, [`simulate`] takes the frames, [`Atlas`] shows what each effect does to perfect ones.
+//!
+//! [`Moment`]: crate::physics::Moment
+
+mod atlas;
+mod camera;
+mod course;
+mod injection;
+mod plan;
+mod simulation;
+
+pub use atlas::{Atlas, Line, Residuals, phasors};
+pub use camera::{FREQUENCY_HZ, chain, practice_camera, sensor};
+pub use course::{Course, moments};
+pub use injection::{included_without, injection};
+pub use plan::Plan;
+pub use simulation::{Simulation, simulate};

@@ -1,0 +1,200 @@
+//! `vuris simulate`
+
+use super::print::{counted, say};
+use super::progress;
+use crate::bench::{
+    Course, FREQUENCY_HZ, Plan, Simulation, chain, included_without, injection, practice_camera, sensor,
+    simulate,
+};
+use crate::frames::Geometry;
+use crate::physics::{Active, Chain, Correlation, EFFECTS, Pulse, Sensor, Stage};
+use crate::problem::{Problem, Result};
+use crate::recording::{Camera, Recording, write_camera, write_recording};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// Simulate a campaign of recordings: a target on a rail before a camera, with any physical effects that its camera.toml does not tell
+#[derive(Debug, Args)]
+pub(super) struct Simulate {
+    /// Folder of the new campaign
+    #[arg(long, value_name = "DIR", required_unless_present = "frames_per_second")]
+    out: Option<PathBuf>,
+    /// An effect that the camera's simulation lacks, at its typical size or with values; may be repeated
+    #[arg(long, value_name = "NAME[:PARAMETER=VALUE,…]")]
+    effect: Vec<String>,
+    /// The camera; without it, a small one of 12 bits
+    #[arg(long, value_name = "camera.toml")]
+    camera: Option<PathBuf>,
+    /// Light in time, instead of the camera's table of harmonics: duty, edge in s, bandwidth in Hz
+    #[arg(long, value_name = "DUTY,EDGE_S,BANDWIDTH_HZ", requires = "demodulation", value_parser = pulse)]
+    light: Option<Pulse>,
+    /// Demodulation in time
+    #[arg(long, value_name = "DUTY,EDGE_S,BANDWIDTH_HZ", requires = "light", value_parser = pulse)]
+    demodulation: Option<Pulse>,
+    /// Columns and rows, behind the same lens; without it, the camera's
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<Geometry>,
+    /// Seed of everything that is drawn
+    #[arg(long, default_value_t = 2012)]
+    seed: u64,
+    /// Which recordings, with commas; without it, all
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    recordings: Vec<String>,
+    /// Modulation frequency, Hz
+    #[arg(long, value_name = "HZ", default_value_t = FREQUENCY_HZ)]
+    frequency_hz: f64,
+    /// From the start of a frame to the start of the next, s
+    #[arg(long, value_name = "S", default_value_t = 0.025)]
+    frame_period_s: f64,
+    /// Print how fast this machine simulates sets of 160 x 120 x 5, and nothing else
+    #[arg(long, conflicts_with = "out")]
+    frames_per_second: bool,
+}
+
+/// Reads `0.45,2e-9,60e6`; edge and bandwidth may be left out.
+fn pulse(text: &str) -> std::result::Result<Pulse, String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|part| part.trim().parse().map_err(|_| format!("{part} is no number")))
+        .collect::<std::result::Result<_, _>>()?;
+    match numbers[..] {
+        [duty] => Ok(Pulse { duty, ..Pulse::SQUARE }),
+        [duty, edge_s] => Ok(Pulse { duty, edge_s, ..Pulse::SQUARE }),
+        [duty, edge_s, bandwidth_hz] => Ok(Pulse { duty, edge_s, bandwidth_hz }),
+        _ => Err("expected one to three numbers: duty, edge in s, bandwidth in Hz".to_owned()),
+    }
+}
+
+fn size(text: &str) -> std::result::Result<Geometry, String> {
+    let sides =
+        text.split_once('x').and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    match sides {
+        Some((width @ 1..=4096, height @ 1..=4096)) => Ok(Geometry { width, height }),
+        _ => Err("expected columns x rows, each from 1 to 4096, such as 160x120".to_owned()),
+    }
+}
+
+/// Harmonics of a waveform that is given in time.
+const HARMONICS: u32 = 15;
+
+impl Simulate {
+    pub(super) fn run(self) -> Result<ExitCode> {
+        if self.frames_per_second {
+            return frames_per_second();
+        }
+        let out = self.out.as_deref().unwrap_or(Path::new("."));
+        let effects: Vec<Active> = self.effect.iter().map(|text| injection(text)).collect::<Result<_>>()?;
+        let in_range = |name: &str, value: f64, low: f64, high: f64| {
+            let found = format!("{value:e}");
+            let problem =
+                || Problem::at(name, found).expected(format_args!("a number from {low:e} to {high:e}"));
+            if (low..=high).contains(&value) { Ok(()) } else { Err(problem()) }
+        };
+        in_range("--frequency-hz", self.frequency_hz, 1e4, 1e10)?;
+        in_range("--frame-period-s", self.frame_period_s, 1e-6, 100.0)?;
+        let (camera, sensor) = self.camera(&effects)?;
+        let plan =
+            Plan { frequency_hz: self.frequency_hz, frame_period_s: self.frame_period_s, seed: self.seed };
+        let names = if self.recordings.is_empty() { Plan::names() } else { self.recordings.clone() };
+        if let Some(twice) = (1..names.len()).find(|&n| names[..n].contains(&names[n])) {
+            return Err(Problem::at("--recordings", format_args!("{} is there twice", names[twice]))
+                .expected("each recording once"));
+        }
+        let courses: Vec<Course> = names.iter().map(|name| plan.course(name)).collect::<Result<_>>()?;
+        if let Some(present) = names.iter().map(|name| out.join(name)).find(|folder| folder.exists()) {
+            return Err(Problem::in_file(&present, "is there already").expected("a new campaign"));
+        }
+        let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
+        let chain = chain(&camera, pixels, effects);
+        write_camera(&camera, out)?;
+        for (name, course) in names.iter().zip(&courses) {
+            // The same recording has the same noise, whichever others are taken.
+            let number = Plan::names().iter().position(|known| known == name).unwrap_or(0) as u32;
+            let simulation = Simulation {
+                chain: &chain,
+                sensor: &sensor,
+                noise: true,
+                seed: self.seed,
+                recording: number,
+            };
+            let raw = progress::counted("sets", |tell| {
+                let done = AtomicUsize::new(0);
+                simulate(&simulation, course, &|| {
+                    tell(done.fetch_add(1, Ordering::Relaxed) + 1, course.sets.len())
+                })
+            })?;
+            let recording = Recording {
+                folder: out.join(name),
+                name: name.clone(),
+                kind: course.kind,
+                frequency_hz: course.frequency_hz,
+                steps_rad: course.steps_rad.clone(),
+                frame_period_s: course.frame_period_s,
+                raw,
+                sets: plan.as_read(course, number),
+                extra_columns: Vec::new(),
+                mask: Some(chain.pixels.target.clone()),
+                frame_times_s: course.frame_times_s.clone(),
+                camera: Some(camera.clone()),
+            };
+            write_recording(&recording, &out.join(name))?;
+            say!("{name}: {} of {} frames", counted(course.sets.len(), "set"), course.frames());
+        }
+        say!("written: {}", out.display());
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// What the campaign's camera.toml says, and the sensor with its assumed light.
+    fn camera(&self, effects: &[Active]) -> Result<(Camera, Sensor)> {
+        let mut camera = match &self.camera {
+            Some(path) => Camera::read(path)?,
+            None => practice_camera(Geometry { width: 24, height: 18 }),
+        };
+        if let Some(geometry) = self.size {
+            camera.focal_length_px *= geometry.width as f64 / camera.geometry.width as f64;
+            camera.geometry = geometry;
+        }
+        let mut constant_ratio = None;
+        if let (Some(light), Some(demodulation)) = (&self.light, &self.demodulation) {
+            let (correlation, ratio) =
+                Correlation::of_pulses(light, demodulation, self.frequency_hz, HARMONICS)?;
+            camera.correlation_amplitude = correlation.harmonics().iter().map(|h| h.amplitude).collect();
+            camera.correlation_phase_rad = correlation.harmonics().iter().map(|h| h.phase_rad).collect();
+            constant_ratio = Some(ratio);
+        }
+        let sensor = sensor(&camera);
+        let sensor = Sensor { constant_ratio: constant_ratio.unwrap_or(sensor.constant_ratio), ..sensor };
+        Ok((included_without(camera, effects), sensor))
+    }
+}
+
+/// Sets of 160 x 120 x 5 a second with noise: without effects, and with all of them at once.
+fn frames_per_second() -> Result<ExitCode> {
+    const SETS: usize = 40;
+    let camera = practice_camera(Geometry { width: 160, height: 120 });
+    let sensor = sensor(&camera);
+    let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: 1 };
+    let mut course = plan.course("wdft-motion")?;
+    course.sets.truncate(SETS);
+    let pixels = Arc::new(Stage::bench().pixels(&sensor, 1));
+    let every = EFFECTS.iter().map(|effect| Active { effect, values: effect.example() }).collect();
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    for (what, effects) in [("no effect", Vec::new()), ("all effects at once", every)] {
+        let chain: Chain = chain(&camera, Arc::clone(&pixels), effects);
+        let simulation = Simulation { chain: &chain, sensor: &sensor, noise: true, seed: 1, recording: 0 };
+        let began = Instant::now();
+        progress::during("simulating", || simulate(&simulation, &course, &|| ()))?;
+        let seconds = began.elapsed().as_secs_f64();
+        let sets = course.sets.len() as f64;
+        say!(
+            "{what}: {:.0} frames of 160 x 120 x 5 a second, {:.0} raw frames ({threads} threads)",
+            sets / seconds,
+            sets * course.frames() as f64 / seconds
+        );
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,151 @@
+//! What an effect is: parameters, the place in the chain where it acts, the forward model there.
+
+use super::exposure::Exposure;
+
+/// A parameter of an effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Its name, with its unit at the end where it has one.
+    pub name: &'static str,
+    /// Its unit; "1" for a ratio.
+    pub unit: &'static str,
+    /// Where the effect, or this part of it, is absent.
+    pub off: f64,
+    /// Least and greatest value for which the forward model stands.
+    pub bounds: (f64, f64),
+    /// The usual size: one standard deviation of what cameras show.
+    pub typical: f64,
+    /// Shapes (a frequency, a time constant) change nothing while the effect is off: values from which a search starts.
+    pub shapes: &'static [f64],
+}
+
+impl Parameter {
+    /// A strength: the effect is absent where it is `off`.
+    pub const fn strength(
+        name: &'static str,
+        unit: &'static str,
+        off: f64,
+        bounds: (f64, f64),
+        typical: f64,
+    ) -> Self {
+        Self { name, unit, off, bounds, typical, shapes: &[] }
+    }
+
+    /// A shape: it matters only where a strength is not off.
+    pub const fn shape(
+        name: &'static str,
+        unit: &'static str,
+        usual: f64,
+        bounds: (f64, f64),
+        shapes: &'static [f64],
+    ) -> Self {
+        Self { name, unit, off: usual, bounds, typical: usual, shapes }
+    }
+
+    /// Whether it is a shape.
+    pub const fn is_shape(&self) -> bool {
+        !self.shapes.is_empty()
+    }
+}
+
+/// Where in the chain from the encoder to the code an effect acts, in the order of the chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Place {
+    /// What the encoder's reading says of the target's position.
+    Encoder,
+    /// When a frame is taken, at which modulation frequency and phase step.
+    Clock,
+    /// How far the target is, and with it the phase.
+    Path,
+    /// How much light comes back, and how much is there anyway.
+    Light,
+    /// The waveform of the correlation of light and sensor.
+    Waveform,
+    /// What has been correlated, and what is added to it.
+    Correlation,
+    /// Charge that goes from pixel to pixel or from frame to frame.
+    Charge,
+    /// What the pixel and the converter make of the charge.
+    Readout,
+}
+
+impl Place {
+    /// All, in the order of the chain.
+    pub const ALL: [Self; 8] = [
+        Self::Encoder,
+        Self::Clock,
+        Self::Path,
+        Self::Light,
+        Self::Waveform,
+        Self::Correlation,
+        Self::Charge,
+        Self::Readout,
+    ];
+}
+
+/// How an effect draws from chance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Chance {
+    /// Not at all: the same parameters give the same frames.
+    None,
+    /// One draw a frame, common to all pixels: its parameter is a standard deviation.
+    Frame,
+    /// One draw a pixel and frame: its parameter is a standard deviation.
+    Pixel,
+}
+
+/// A physical effect. One file each in `effects/`, one line in [`super::EFFECTS`].
+#[derive(Debug)]
+pub struct Effect {
+    /// The name that verdicts and files use.
+    pub name: &'static str,
+    /// One plain sentence.
+    pub sentence: &'static str,
+    /// Where its equation comes from.
+    pub reference: &'static str,
+    /// Its parameters, strengths first.
+    pub parameters: &'static [Parameter],
+    /// Where it acts.
+    pub place: Place,
+    /// How it draws from chance.
+    pub chance: Chance,
+    /// Whether it needs [`Exposure::before_dn`], the light of the frame before.
+    pub looks_back: bool,
+    /// The forward model: what these values of the parameters do to a frame that has come to [`Effect::place`].
+    pub act: fn(&[f64], &mut Exposure),
+}
+
+impl Effect {
+    /// The values at which it does nothing.
+    pub fn off(&self) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| parameter.off).collect()
+    }
+
+    /// The values of its usual size, within its bounds.
+    pub fn typical(&self) -> Vec<f64> {
+        let value = |p: &Parameter| {
+            if p.is_shape() { p.off } else { (p.off + p.typical).clamp(p.bounds.0, p.bounds.1) }
+        };
+        self.parameters.iter().map(value).collect()
+    }
+
+    /// Values of its usual size that show it: typical ones of both signs. Like values of like parameters, such as the gains of all
+    /// frames, would cancel.
+    pub fn example(&self) -> Vec<f64> {
+        const SIGNS: [f64; 4] = [1.0, -1.0, -1.0, 1.0];
+        let value = |(number, p): (usize, &Parameter)| {
+            let signed = p.off + SIGNS[number % SIGNS.len()] * p.typical;
+            if p.is_shape() { p.off } else { signed.clamp(p.bounds.0, p.bounds.1) }
+        };
+        self.parameters.iter().enumerate().map(value).collect()
+    }
+}
+
+/// An effect with values for its parameters.
+#[derive(Debug, Clone)]
+pub struct Active {
+    /// The effect.
+    pub effect: &'static Effect,
+    /// One value a parameter.
+    pub values: Vec<f64>,
+}

@@ -1,0 +1,25 @@
+//! The camera's own arithmetic: low bits that are cut off before they are accumulated.
+
+use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+
+/// Bits of the code that are cut off.
+pub static EFFECT: Effect = Effect {
+    name: "fixed_point",
+    sentence: "The camera's own arithmetic cuts low bits off the codes: a bias of half a unit, and a staircase.",
+    reference: "I -> 2^k floor(I / 2^k)",
+    parameters: &[Parameter::strength("bits_cut", "bit", 0.0, (0.0, 6.0), 2.0)],
+    place: Place::Readout,
+    chance: Chance::None,
+    looks_back: false,
+    act,
+};
+
+fn act(values: &[f64], exposure: &mut Exposure) {
+    if values[0] > 0.0 {
+        let unit_dn = libm::exp2(values[0]);
+        let pedestal_dn = exposure.pixels.pedestal_dn;
+        exposure.signal_dn.iter_mut().for_each(|signal| {
+            *signal = libm::floor((*signal + pedestal_dn) / unit_dn) * unit_dn - pedestal_dn;
+        });
+    }
+}

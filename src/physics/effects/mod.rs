@@ -1,0 +1,75 @@
+//! The effects, one file each, and their registry.
+
+mod adc_nonlinearity;
+mod ambient_drift;
+mod ambient_flicker;
+mod axial_motion;
+mod charge_crosstalk;
+mod clock_jitter;
+mod correlation_harmonics;
+mod demodulation_skew;
+mod electrical_crosstalk;
+mod encoder_cyclic;
+mod encoder_scale;
+mod excess_noise;
+mod fixed_point;
+mod frame_gain;
+mod illumination_drift;
+mod illumination_droop;
+mod image_lag;
+mod intensity_nonlinearity;
+mod intensity_related_phase;
+mod inverse_square_falloff;
+mod lateral_motion;
+mod lens_scatter;
+mod mixed_pixels;
+mod modulation_frequency_error;
+mod multipath_interference;
+mod phase_drift;
+mod phase_step_errors;
+mod phase_step_scale;
+mod saturation;
+mod tap_mismatch;
+mod timing_jitter_of_frames;
+
+use super::effect::Effect;
+
+/// All effects.
+pub static EFFECTS: &[&Effect] = &[
+    &correlation_harmonics::EFFECT,
+    &inverse_square_falloff::EFFECT,
+    &axial_motion::EFFECT,
+    &multipath_interference::EFFECT,
+    &lens_scatter::EFFECT,
+    &mixed_pixels::EFFECT,
+    &ambient_drift::EFFECT,
+    &ambient_flicker::EFFECT,
+    &illumination_droop::EFFECT,
+    &illumination_drift::EFFECT,
+    &phase_step_scale::EFFECT,
+    &phase_step_errors::EFFECT,
+    &phase_drift::EFFECT,
+    &clock_jitter::EFFECT,
+    &demodulation_skew::EFFECT,
+    &modulation_frequency_error::EFFECT,
+    &intensity_nonlinearity::EFFECT,
+    &saturation::EFFECT,
+    &image_lag::EFFECT,
+    &charge_crosstalk::EFFECT,
+    &tap_mismatch::EFFECT,
+    &adc_nonlinearity::EFFECT,
+    &intensity_related_phase::EFFECT,
+    &electrical_crosstalk::EFFECT,
+    &encoder_scale::EFFECT,
+    &encoder_cyclic::EFFECT,
+    &frame_gain::EFFECT,
+    &timing_jitter_of_frames::EFFECT,
+    &lateral_motion::EFFECT,
+    &excess_noise::EFFECT,
+    &fixed_point::EFFECT,
+];
+
+/// The effect called `name`.
+pub fn named(name: &str) -> Option<&'static Effect> {
+    EFFECTS.iter().copied().find(|effect| effect.name == name)
+}

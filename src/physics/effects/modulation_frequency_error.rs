@@ -1,0 +1,19 @@
+//! The modulation frequency is not the one commanded.
+
+use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+
+/// Relative error of the frequency.
+pub static EFFECT: Effect = Effect {
+    name: "modulation_frequency_error",
+    sentence: "The modulation frequency is not the one commanded, so all distances are scaled.",
+    reference: "f -> f (1 + eps)",
+    parameters: &[Parameter::strength("relative", "1", 0.0, (-0.05, 0.05), 1e-3)],
+    place: Place::Clock,
+    chance: Chance::None,
+    looks_back: false,
+    act,
+};
+
+fn act(values: &[f64], exposure: &mut Exposure) {
+    exposure.frequency_hz *= 1.0 + values[0];
+}

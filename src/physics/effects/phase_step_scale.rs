@@ -1,0 +1,19 @@
+//! All phase steps too large or too small by the same factor.
+
+use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+
+/// Relative error of the phase step.
+pub static EFFECT: Effect = Effect {
+    name: "phase_step_scale",
+    sentence: "The phase steps are all too large or too small by one factor (linear miscalibration of the phase step).",
+    reference: "Surrel 1996; theta_n -> (1 + eps) theta_n",
+    parameters: &[Parameter::strength("relative", "1", 0.0, (-0.3, 0.3), 0.01)],
+    place: Place::Clock,
+    chance: Chance::None,
+    looks_back: false,
+    act,
+};
+
+fn act(values: &[f64], exposure: &mut Exposure) {
+    exposure.angle_rad += values[0] * exposure.moment.step_rad;
+}

@@ -1,0 +1,184 @@
+//! A raw frame as it comes into being, from the encoder's reading to the code.
+//!
+//! All charges are in DN above the pedestal: electrons over the gain. Arrays have one entry a pixel, row by row.
+
+use super::correlation::Correlation;
+use super::pixels::Pixels;
+use crate::units::phase_rad;
+use std::sync::Arc;
+
+/// When and how one raw frame is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// Set within the recording, from 0.
+    pub set: usize,
+    /// Frame within the set, from 0.
+    pub frame: usize,
+    /// Frames a set.
+    pub frames: usize,
+    /// Start of the frame, s, from the start of the recording.
+    pub time_s: f64,
+    /// Start of the frame, s, from the start of its set.
+    pub in_set_s: f64,
+    /// From the start of a frame to the start of the next within a set, s.
+    pub frame_period_s: f64,
+    /// The phase step that was commanded, without the set's offset, rad.
+    pub step_rad: f64,
+    /// The set's phase offset, rad.
+    pub offset_rad: f64,
+    /// The encoder's reading at the set's start, m.
+    pub position_m: f64,
+    /// The carriage's commanded velocity, m/s, positive away from the camera.
+    pub velocity_m_s: f64,
+    /// Modulation frequency that was commanded, Hz.
+    pub frequency_hz: f64,
+    /// Whether the camera's own light is on.
+    pub lit: bool,
+    /// Whether the frame before, of this recording, ended when this one began.
+    pub follows: bool,
+}
+
+/// What the baseline takes into account of a target that moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Included {
+    /// The phase follows the recorded velocity from frame to frame.
+    pub axial_motion: bool,
+    /// The light falls off during a set as the target moves.
+    pub inverse_square_falloff: bool,
+}
+
+/// A frame in the making. Effects change what stands here when their place comes.
+#[derive(Debug, Clone)]
+pub struct Exposure {
+    /// When and how it is taken; effects do not change this.
+    pub moment: Moment,
+    /// The pixels.
+    pub pixels: Arc<Pixels>,
+    /// What the baseline takes into account.
+    pub included: Included,
+    /// The target's true position at the set's start, m.
+    pub position_m: f64,
+    /// The target's velocity, m/s.
+    pub velocity_m_s: f64,
+    /// Start of the frame, s, from the start of its set, as it truly is.
+    pub in_set_s: f64,
+    /// Share of the way since the set's start that the phase has followed: 1 where axial motion is modelled.
+    pub motion_share: f64,
+    /// The same of the light's falloff.
+    pub falloff_share: f64,
+    /// Modulation frequency, Hz.
+    pub frequency_hz: f64,
+    /// Phase of the demodulation against the light: step and offset, rad.
+    pub angle_rad: f64,
+    /// Radial range, m.
+    pub range_m: Vec<f64>,
+    /// Phase, rad: of the range, and the pixel's own.
+    pub phase_rad: Vec<f64>,
+    /// Amplitude of the fundamental, DN.
+    pub amplitude_dn: Vec<f64>,
+    /// The constant part of the camera's own light, DN.
+    pub constant_dn: Vec<f64>,
+    /// Ambient light, DN.
+    pub ambient_dn: Vec<f64>,
+    /// The correlation waveform.
+    pub correlation: Correlation,
+    /// Charge above the pedestal, DN.
+    pub signal_dn: Vec<f64>,
+    /// What light brought to the pixels, DN, before charge went anywhere.
+    pub arrived_dn: Arc<Vec<f64>>,
+    /// The same of the frame before; nothing where there was none.
+    pub before_dn: Option<Arc<Vec<f64>>>,
+    /// Draws from the standard normal distribution for this frame, one for each of the chain's effects.
+    pub deviates: Vec<f64>,
+    /// That of the effect that acts just now; 0 where there is none.
+    pub deviate: f64,
+    /// Draws for its pixels, where an effect needs them.
+    pub pixel_deviates: Vec<f64>,
+}
+
+impl Exposure {
+    /// A frame of which only the moment is known.
+    pub fn new(moment: Moment, pixels: &Arc<Pixels>, included: Included, correlation: &Correlation) -> Self {
+        Self {
+            moment,
+            pixels: Arc::clone(pixels),
+            included,
+            position_m: moment.position_m,
+            velocity_m_s: moment.velocity_m_s,
+            in_set_s: moment.in_set_s,
+            motion_share: f64::from(u8::from(included.axial_motion)),
+            falloff_share: f64::from(u8::from(included.inverse_square_falloff)),
+            frequency_hz: moment.frequency_hz,
+            angle_rad: moment.offset_rad + moment.step_rad,
+            range_m: Vec::new(),
+            phase_rad: Vec::new(),
+            amplitude_dn: Vec::new(),
+            constant_dn: Vec::new(),
+            ambient_dn: Vec::new(),
+            correlation: correlation.clone(),
+            signal_dn: Vec::new(),
+            arrived_dn: Arc::default(),
+            before_dn: None,
+            deviates: Vec::new(),
+            deviate: 0.0,
+            pixel_deviates: Vec::new(),
+        }
+    }
+
+    /// The target's way since the set's start, m.
+    pub fn way_m(&self) -> f64 {
+        self.velocity_m_s * self.in_set_s
+    }
+
+    /// Ranges and phases from position and motion.
+    pub fn look(&mut self) {
+        let position_m = self.position_m + self.motion_share * self.way_m();
+        let pixels = &self.pixels;
+        let range_m = |pixel: usize| match pixels.target[pixel] {
+            true => position_m * pixels.obliquity[pixel],
+            false => pixels.background_m[pixel],
+        };
+        self.range_m = (0..pixels.count()).map(range_m).collect();
+        let frequency_hz = self.frequency_hz;
+        let phases = self.range_m.iter().zip(&pixels.phase_rad);
+        self.phase_rad =
+            phases.map(|(&range_m, own_rad)| phase_rad(range_m, frequency_hz) + own_rad).collect();
+    }
+
+    /// Light from ranges: the camera's own falls with the square of the range, ambient light does not.
+    pub fn light(&mut self) {
+        let position_m = self.position_m + self.falloff_share * self.way_m();
+        let (pixels, lit) = (&self.pixels, f64::from(u8::from(self.moment.lit)));
+        let share = |pixel: usize| {
+            let range_m = match pixels.target[pixel] {
+                true => position_m * pixels.obliquity[pixel],
+                false => pixels.background_m[pixel],
+            };
+            lit / (range_m * range_m)
+        };
+        let shares: Vec<f64> = (0..pixels.count()).map(share).collect();
+        let times = |of: &[f64]| of.iter().zip(&shares).map(|(light, share)| light * share).collect();
+        self.amplitude_dn = times(&pixels.amplitude_1m_dn);
+        self.constant_dn = times(&pixels.constant_1m_dn);
+        self.ambient_dn.clone_from(&pixels.ambient_dn);
+    }
+
+    /// Charge from light: amplitude times waveform, and what is constant.
+    pub fn correlate(&mut self) {
+        let offsets = self.constant_dn.iter().zip(&self.ambient_dn).map(|(own, ambient)| own + ambient);
+        let mut signal_dn: Vec<f64> = offsets.collect();
+        self.correlation.add(&self.amplitude_dn, &self.phase_rad, self.angle_rad, &mut signal_dn);
+        self.signal_dn = signal_dn;
+    }
+
+    /// The camera's own light times `factor`.
+    pub fn scale_light(&mut self, factor: f64) {
+        let own = self.amplitude_dn.iter_mut().chain(&mut self.constant_dn);
+        own.for_each(|light| *light *= factor);
+    }
+
+    /// Adds light that comes by another way: `amplitude_dn` and `phase_rad` a pixel, with the same waveform.
+    pub fn add_path(&mut self, amplitude_dn: &[f64], phase_rad: &[f64]) {
+        self.correlation.add(amplitude_dn, phase_rad, self.angle_rad, &mut self.signal_dn);
+    }
+}

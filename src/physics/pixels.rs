@@ -1,0 +1,95 @@
+//! What is true of each pixel in all frames.
+
+use crate::frames::Geometry;
+
+/// The pixels of a camera before a scene. Arrays have one entry a pixel, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pixels {
+    /// Columns and rows.
+    pub geometry: Geometry,
+    /// Whether it sees the target; all others see a still background.
+    pub target: Vec<bool>,
+    /// Radial over axial distance, >= 1.
+    pub obliquity: Vec<f64>,
+    /// Radial range of the background, m, > 0; not used where the target is seen.
+    pub background_m: Vec<f64>,
+    /// Phase of its own (fixed pattern), rad.
+    pub phase_rad: Vec<f64>,
+    /// Amplitude of the fundamental, DN, of what it sees at 1 m.
+    pub amplitude_1m_dn: Vec<f64>,
+    /// The constant part of the camera's own light, DN, at 1 m.
+    pub constant_1m_dn: Vec<f64>,
+    /// Ambient light, DN.
+    pub ambient_dn: Vec<f64>,
+    /// Code of full scale, DN above the pedestal.
+    pub full_scale_dn: f64,
+    /// Code at no light, DN.
+    pub pedestal_dn: f64,
+    /// Pairs of neighbours of which one sees the target and the other does not: a pixel, and the one beyond the edge.
+    pub edges: Vec<(usize, usize)>,
+    /// Of each pair: how many neighbours beyond the edge its pixel has.
+    pub edge_counts: Vec<f64>,
+}
+
+impl Pixels {
+    /// Number of pixels.
+    pub fn count(&self) -> usize {
+        self.geometry.pixels()
+    }
+
+    /// Column and row from the centre, as a share of the sensor's width and height: −0.5 to 0.5.
+    pub fn place(&self, pixel: usize) -> (f64, f64) {
+        let Geometry { width, height } = self.geometry;
+        let (row, column) = self.geometry.row_column(pixel);
+        let share = |index: usize, size: usize| (index as f64 + 0.5) / size as f64 - 0.5;
+        (share(column, width), share(row, height))
+    }
+
+    /// The up to four neighbours of a pixel: left, right, above, below.
+    fn beside(geometry: Geometry, pixel: usize) -> [Option<usize>; 4] {
+        let Geometry { width, height } = geometry;
+        let (row, column) = geometry.row_column(pixel);
+        [
+            (column > 0).then(|| pixel - 1),
+            (column + 1 < width).then(|| pixel + 1),
+            (row > 0).then(|| pixel - width),
+            (row + 1 < height).then(|| pixel + width),
+        ]
+    }
+
+    /// The pairs of [`Pixels::edges`] of a mask.
+    pub fn edges_of(geometry: Geometry, target: &[bool]) -> Vec<(usize, usize)> {
+        let pairs = |pixel: usize| {
+            let beside = Self::beside(geometry, pixel).into_iter().flatten();
+            beside.filter(move |&beside| target[beside] != target[pixel]).map(move |beside| (pixel, beside))
+        };
+        (0..geometry.pixels()).flat_map(pairs).collect()
+    }
+
+    /// Entries of [`Pixels::edge_counts`] for these pairs.
+    pub fn edge_counts_of(edges: &[(usize, usize)]) -> Vec<f64> {
+        edges.iter().map(|(pixel, _)| edges.iter().filter(|(own, _)| own == pixel).count() as f64).collect()
+    }
+
+    /// Mean of `values` over the up to four neighbours of a pixel.
+    pub fn neighbours(&self, values: &[f64], pixel: usize) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for beside in Self::beside(self.geometry, pixel).into_iter().flatten() {
+            sum += values[beside];
+            count += 1.0;
+        }
+        if count == 0.0 { values[pixel] } else { sum / count }
+    }
+
+    /// Slope of `values` along the columns and the rows at a pixel, a pixel, on the side from which the image comes that
+    /// moves by `moved` columns and rows.
+    pub fn slopes(&self, values: &[f64], pixel: usize, moved: [f64; 2]) -> (f64, f64) {
+        let [left, right, above, below] = Self::beside(self.geometry, pixel);
+        let slope = |before: Option<usize>, after: Option<usize>, moved: f64| match (before, after) {
+            (Some(before), _) if moved > 0.0 => values[pixel] - values[before],
+            (_, Some(after)) if moved < 0.0 => values[after] - values[pixel],
+            _ => 0.0,
+        };
+        (slope(left, right, moved[0]), slope(above, below, moved[1]))
+    }
+}
