@@ -1,4 +1,4 @@
-//! The short form of `make mutate`, `make coverage` and `make prove`: the same commands on less.
+//! The short form of `make prove`: the same command on the quick ones of its proofs.
 
 use std::process::Output;
 
@@ -19,17 +19,4 @@ fn the_quick_proofs_hold_and_fail_where_a_fault_is() {
         assert!(!said.contains("FAILS") && !said.contains("MISSED"), "{said}");
         assert_eq!(said.matches("seen: ").count(), faults, "{said}");
     }
-}
-
-/// A few mutants of every module. The whole table, and what survives with its reason, is in docs/mutation-vuris.md.
-#[test]
-fn a_few_mutants_of_every_module_are_killed() {
-    let (said, success) = vuris(&["mutate", "--spec", "vuris", "--per-module", "4"]);
-    assert!(success, "{said}");
-}
-
-#[test]
-fn nearly_every_line_runs_and_every_bit_moves() {
-    let (said, success) = vuris(&["coverage", "--spec", "vuris"]);
-    assert!(success, "{said}");
 }
