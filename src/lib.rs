@@ -51,6 +51,7 @@ pub mod artifact;
 pub mod bench;
 pub mod cli;
 pub mod cosim;
+pub mod diagnose;
 pub mod fields;
 pub mod frames;
 pub mod hdl;

@@ -1,0 +1,154 @@
+//! Tangents of the forward model: what each fitted number changes in every sample, by the model itself.
+
+use super::data::Data;
+use super::pieces::{Piece, active};
+use crate::bench::chain;
+use crate::physics::{Active, Chain, Memory, Moment, Pixels};
+use std::sync::Arc;
+
+/// The numbers of a pixel that are fitted beside everything else: amplitude at 1 m, phase, constant light at 1 m, ambient light.
+pub const OWN: usize = 4;
+
+/// A column: one fitted number.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// The piece, among those that were given.
+    pub piece: usize,
+    /// Its parameter.
+    pub parameter: usize,
+}
+
+/// The chains of one recording: the base, and one for each difference from it.
+struct Chains {
+    base: Chain,
+    own: [(Chain, f64); OWN],
+    /// The place from which each differs, and over what it is divided.
+    columns: Vec<Option<(Chain, f64)>>,
+}
+
+/// The forward model around a base, with its tangents.
+pub struct Tangents<'a> {
+    data: &'a Data,
+    chains: Vec<Chains>,
+    count: usize,
+}
+
+/// What one frame gives.
+pub struct Frame {
+    /// The base's signal, DN.
+    pub base: Vec<f64>,
+    /// Tangents by the pixel's own numbers, `[number][pixel]`.
+    pub own: [Vec<f64>; OWN],
+    /// By the target's position, DN a metre.
+    pub position: Vec<f64>,
+    /// Tangents of the columns; empty where a column does not act in this recording.
+    pub columns: Vec<Vec<f64>>,
+}
+
+/// Step of the numerical tangents, relative to a number's usual size.
+const STEP: f64 = 1e-3;
+const POSITION_STEP_M: f64 = 1e-6;
+
+fn own_pixels(pixels: &Pixels, number: usize) -> (Pixels, f64) {
+    let mut changed = pixels.clone();
+    let (values, step) = match number {
+        0 => (&mut changed.amplitude_1m_dn, 0.1),
+        1 => (&mut changed.phase_rad, 1e-4),
+        2 => (&mut changed.constant_1m_dn, 0.1),
+        _ => (&mut changed.ambient_dn, 0.1),
+    };
+    values.iter_mut().for_each(|value| *value += step);
+    (changed, step)
+}
+
+impl<'a> Tangents<'a> {
+    /// The model of `data` with `pixels` and the effects `fitted`; columns for every free number of `fitted` and of `tried`, in this
+    /// order.
+    pub fn new(data: &'a Data, pixels: &Arc<Pixels>, fitted: &[Piece], tried: &[Piece]) -> (Self, Vec<Column>) {
+        let mut columns = Vec::new();
+        for (number, piece) in fitted.iter().chain(tried).enumerate() {
+            columns.extend(piece.free.iter().map(|&parameter| Column { piece: number, parameter }));
+        }
+        let chains = (0..data.takes.len()).map(|take| {
+            let effects = active(fitted, take);
+            let with = |pixels: Arc<Pixels>, effects: Vec<Active>| chain(&data.camera, pixels, effects);
+            let own = [0, 1, 2, 3].map(|number| {
+                let (changed, step) = own_pixels(pixels, number);
+                (with(Arc::new(changed), effects.clone()), step)
+            });
+            let of = |column: &Column| {
+                let piece = fitted.iter().chain(tried).nth(column.piece)?;
+                if !piece.takes.contains(&take) {
+                    return None;
+                }
+                let is_fitted = column.piece < fitted.len();
+                let mut changed = effects.clone();
+                let parameter = &piece.effect.parameters[column.parameter];
+                let (values, step) = if piece.finite && !is_fitted {
+                    (piece.values.clone(), piece.values[column.parameter] - parameter.off)
+                } else {
+                    let mut values = piece.values.clone();
+                    // Away from a bound.
+                    let towards = if values[column.parameter] >= parameter.bounds.1 { -1.0 } else { 1.0 };
+                    let step = towards * STEP * parameter.typical;
+                    values[column.parameter] += step;
+                    (values, step)
+                };
+                if is_fitted {
+                    let place = fitted[..column.piece].iter().filter(|piece| piece.takes.contains(&take)).count();
+                    changed[place].values = values;
+                } else {
+                    changed.push(Active { effect: piece.effect, values });
+                }
+                Some((with(Arc::clone(pixels), changed), step))
+            };
+            Chains { base: with(Arc::clone(pixels), effects.clone()), own, columns: columns.iter().map(of).collect() }
+        });
+        let chains = chains.collect();
+        (Self { data, chains, count: columns.len() }, columns)
+    }
+
+    /// Frame number `index` of recording `take`.
+    pub fn frame(&self, take: usize, index: usize) -> Frame {
+        let moments = &self.data.takes[take].moments;
+        let moment = moments[index];
+        let chains = &self.chains[take];
+        let before = before(moments, index);
+        let expose = |chain: &Chain, moment: Moment| {
+            let before_dn = chain.looks_back().then(|| chain.arrive(before, Memory::default()));
+            chain.expose(moment, Memory { before_dn, ..Memory::default() }).signal_dn
+        };
+        let base = expose(&chains.base, moment);
+        let difference = |signal: Vec<f64>, step: f64| -> Vec<f64> {
+            signal.iter().zip(&base).map(|(changed, base)| (changed - base) / step).collect()
+        };
+        let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
+        let position = difference(expose(&chains.base, moved), POSITION_STEP_M);
+        let own = chains.own.each_ref().map(|(chain, step)| difference(expose(chain, moment), *step));
+        let columns = chains.columns.iter().map(|column| match column {
+            Some((chain, step)) => difference(expose(chain, moment), *step),
+            None => Vec::new(),
+        });
+        let columns = columns.collect();
+        Frame { base, own, position, columns }
+    }
+
+    /// Number of columns.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+}
+
+/// The frame before: of the same set, or, of a set's first, what a camera that runs on evenly had taken then.
+fn before(moments: &[Moment], index: usize) -> Moment {
+    let moment = moments[index];
+    if moment.frame > 0 {
+        return moments[index - 1];
+    }
+    let step_rad = match moments.get(index + 1) {
+        Some(next) if moment.frames > 1 => 2.0 * moment.step_rad - next.step_rad,
+        _ => moment.step_rad,
+    };
+    let period_s = moment.frame_period_s;
+    Moment { step_rad, in_set_s: moment.in_set_s - period_s, time_s: moment.time_s - period_s, ..moment }
+}

@@ -1,0 +1,104 @@
+//! A campaign as the fit sees it: frames above the pedestal, which samples count, and what the encoder said of each.
+
+use crate::bench::Course;
+use crate::frames::Geometry;
+use crate::physics::Moment;
+use crate::problem::{Problem, Result};
+use crate::recording::{Camera, Recording};
+use std::path::Path;
+
+/// A recording's frames.
+#[derive(Debug, Clone)]
+pub struct Take {
+    /// The recording's name.
+    pub name: String,
+    /// Every frame, in the order `[set, frame]`.
+    pub moments: Vec<Moment>,
+    /// Frames a set.
+    pub frames: usize,
+    /// Signals above the pedestal, DN, `[frame, pixel]`; NaN where a sample does not count.
+    pub signal_dn: Vec<f32>,
+}
+
+/// Recordings of one camera.
+#[derive(Debug, Clone)]
+pub struct Data {
+    /// What the simulation of the camera includes.
+    pub camera: Camera,
+    /// The recordings, by name.
+    pub takes: Vec<Take>,
+    /// Which pixels see the target.
+    pub target: Vec<bool>,
+}
+
+/// Above so many codes below full scale a sample is clipped, or about to be.
+const CLIPPED_DN: u32 = 2;
+
+impl Data {
+    /// Reads the campaign in `folder`, or the one recording that it is.
+    ///
+    /// # Errors
+    /// No recording, no camera, recordings that do not belong together, and whatever a recording is refused for.
+    pub fn read(folder: &Path) -> Result<Self> {
+        let recordings = recordings(folder)?;
+        let first = &recordings[0];
+        let Some(camera) = first.camera.clone() else {
+            return Err(Problem::in_file(folder, "has no camera.toml")
+                .expected("what the simulation of this camera knows and includes, beside the recordings")
+                .remedy("write one: sensor, correlation, physics"));
+        };
+        let geometry = first.geometry();
+        let target: Vec<bool> = (0..geometry.pixels()).map(|pixel| first.sees_target(pixel)).collect();
+        let mut takes = Vec::new();
+        for recording in &recordings {
+            if recording.geometry() != geometry || camera.geometry != geometry {
+                return Err(Problem::in_file(&recording.folder, "has another number of pixels")
+                    .expected(format_args!("{} x {}", geometry.width, geometry.height)));
+            }
+            let course = Course::of(recording)?;
+            let full_scale = (1_u32 << camera.adc_bits) - 1;
+            let signal = |&code: &u32| match code {
+                0 => f32::NAN,
+                code if code + CLIPPED_DN > full_scale => f32::NAN,
+                code => (f64::from(code) - camera.pedestal_dn) as f32,
+            };
+            takes.push(Take {
+                name: recording.name.clone(),
+                moments: course.moments(),
+                frames: course.frames(),
+                signal_dn: recording.raw.codes().iter().map(signal).collect(),
+            });
+        }
+        Ok(Self { camera, takes, target })
+    }
+
+    /// The sensor's pixels.
+    pub fn geometry(&self) -> Geometry {
+        self.camera.geometry
+    }
+
+    /// Number of pixels.
+    pub fn pixels(&self) -> usize {
+        self.geometry().pixels()
+    }
+}
+
+/// The recordings of a campaign, by name, or the one that `folder` is.
+fn recordings(folder: &Path) -> Result<Vec<Recording>> {
+    if folder.join("recording.toml").exists() {
+        return Ok(vec![Recording::open(folder)?]);
+    }
+    let entries = std::fs::read_dir(folder).map_err(|error| {
+        Problem::io(folder, "open", &error).expected("a campaign: a folder of recordings with a camera.toml")
+    })?;
+    let mut folders: Vec<_> = entries
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+        .filter(|path| path.join("recording.toml").exists())
+        .collect();
+    folders.sort();
+    if folders.is_empty() {
+        return Err(Problem::in_file(folder, "holds no recording")
+            .expected("a campaign: a folder of recordings with a camera.toml"));
+    }
+    folders.iter().map(|path| Recording::open(path)).collect()
+}

@@ -1,0 +1,147 @@
+//! Which candidates the data ask for: Bayes factors from score and information, no refit needed.
+
+use nalgebra::{DMatrix, DVector};
+
+/// A candidate's columns in some variant of its shape: their numbers.
+#[derive(Debug, Clone)]
+pub struct Block {
+    /// The candidate.
+    pub candidate: usize,
+    /// Its variant.
+    pub variant: usize,
+    /// Variants that it has.
+    pub variants: usize,
+    /// Columns.
+    pub columns: Vec<usize>,
+}
+
+/// A block in coordinates of its own in which its information is the identity.
+#[derive(Debug, Clone)]
+struct White {
+    basis: DMatrix<f64>,
+    score: DVector<f64>,
+}
+
+/// Score and information of all blocks.
+pub struct Evidence<'a> {
+    matrix: &'a DMatrix<f64>,
+    blocks: &'a [Block],
+    white: Vec<Option<White>>,
+    candidates: f64,
+}
+
+/// A model and its evidence against the baseline.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Numbers of blocks, of different candidates.
+    pub blocks: Vec<usize>,
+    /// Natural logarithm of the Bayes factor.
+    pub ln_bayes: f64,
+}
+
+/// Of a column's information less than this is left by the pixels' own numbers: it cannot be seen.
+pub const VISIBLE: f64 = 1e-6;
+const LEAST_EIGENVALUE: f64 = 1e-4;
+const LEAST_PRIOR: f64 = 4.0;
+
+impl<'a> Evidence<'a> {
+    /// Of `matrix` and `vector`, with `raw` the information before the projection.
+    pub fn new(
+        matrix: &'a DMatrix<f64>,
+        vector: &'a DVector<f64>,
+        raw: &DVector<f64>,
+        blocks: &'a [Block],
+        candidates: usize,
+    ) -> Self {
+        let white = |block: &Block| {
+            let seen = |&&column: &&usize| matrix[(column, column)] > VISIBLE * raw[column] && raw[column] > 0.0;
+            let columns: Vec<usize> = block.columns.iter().filter(seen).copied().collect();
+            if columns.is_empty() {
+                return None;
+            }
+            let scale: Vec<f64> = columns.iter().map(|&c| matrix[(c, c)].sqrt().recip()).collect();
+            let inner = DMatrix::from_fn(columns.len(), columns.len(), |r, c| {
+                matrix[(columns[r], columns[c])] * scale[r] * scale[c]
+            });
+            let eigen = inner.symmetric_eigen();
+            let kept: Vec<usize> =
+                (0..columns.len()).filter(|&n| eigen.eigenvalues[n] > LEAST_EIGENVALUE).collect();
+            let mut basis = DMatrix::zeros(matrix.nrows(), kept.len());
+            for (number, &which) in kept.iter().enumerate() {
+                let length = eigen.eigenvalues[which].sqrt().recip();
+                for (place, &column) in columns.iter().enumerate() {
+                    basis[(column, number)] = eigen.eigenvectors[(place, which)] * length * scale[place];
+                }
+            }
+            let score = basis.tr_mul(vector);
+            Some(White { basis, score })
+        };
+        let white = blocks.iter().map(white).collect();
+        Self { matrix, blocks, white, candidates: candidates as f64 }
+    }
+
+    /// Score statistic of a block: chi squared, and its degrees of freedom. Nothing where it cannot be seen.
+    pub fn score(&self, block: usize) -> Option<(f64, usize)> {
+        self.white[block].as_ref().map(|white| (white.score.norm_squared(), white.score.len()))
+    }
+
+    /// The evidence for the blocks together.
+    pub fn ln_bayes(&self, chosen: &[usize]) -> f64 {
+        let parts: Option<Vec<&White>> = chosen.iter().map(|&block| self.white[block].as_ref()).collect();
+        let Some(parts) = parts else { return f64::NEG_INFINITY };
+        let size: usize = parts.iter().map(|part| part.score.len()).sum();
+        let mut inner = DMatrix::identity(size, size);
+        let mut score = DVector::zeros(size);
+        let mut of = Vec::new();
+        let mut row = 0;
+        for (number, part) in parts.iter().enumerate() {
+            let width = part.score.len();
+            score.rows_mut(row, width).copy_from(&part.score);
+            let mut column = 0;
+            for other in &parts[..number] {
+                let cross = part.basis.tr_mul(&(self.matrix * &other.basis));
+                inner.view_mut((row, column), (width, other.score.len())).copy_from(&cross);
+                inner.view_mut((column, row), (other.score.len(), width)).copy_from(&cross.transpose());
+                column += other.score.len();
+            }
+            of.push(row..row + width);
+            row += width;
+        }
+        let mut prior: Vec<f64> =
+            parts.iter().map(|p| (p.score.norm_squared() / p.score.len() as f64).max(LEAST_PRIOR)).collect();
+        let mut ln_bayes = f64::NEG_INFINITY;
+        for _ in 0..4 {
+            let mut posterior = inner.clone();
+            for (range, prior) in of.iter().zip(&prior) {
+                range.clone().for_each(|n| posterior[(n, n)] += prior.recip());
+            }
+            let Some(cholesky) = posterior.cholesky() else { return f64::NEG_INFINITY };
+            let theta = cholesky.solve(&score);
+            let inverse = cholesky.inverse();
+            let ln_determinant = 2.0 * cholesky.l().diagonal().iter().map(|d| d.ln()).sum::<f64>();
+            let ln_prior: f64 = of.iter().zip(&prior).map(|(range, prior)| range.len() as f64 * prior.ln()).sum();
+            ln_bayes = 0.5 * score.dot(&theta) - 0.5 * (ln_determinant + ln_prior);
+            for (range, prior) in of.iter().zip(&mut prior) {
+                let square: f64 = range.clone().map(|n| theta[n] * theta[n] + inverse[(n, n)]).sum();
+                *prior = (square / range.len() as f64).max(LEAST_PRIOR);
+            }
+        }
+        let variants: f64 = chosen.iter().map(|&block| (self.blocks[block].variants as f64).ln()).sum();
+        let effects = chosen.len() as f64;
+        ln_bayes - effects - effects * (2.0 * self.candidates).ln() - variants
+    }
+
+    /// All single blocks and all pairs of different candidates, best first.
+    pub fn models(&self) -> Vec<Model> {
+        let seen: Vec<usize> = (0..self.blocks.len()).filter(|&block| self.white[block].is_some()).collect();
+        let model = |blocks: Vec<usize>| Model { ln_bayes: self.ln_bayes(&blocks), blocks };
+        let mut models: Vec<Model> = seen.iter().map(|&block| model(vec![block])).collect();
+        // Of each candidate the best variant, and the best beside each other one.
+        for (place, &one) in seen.iter().enumerate() {
+            let others = seen[place + 1..].iter().filter(|&&o| self.blocks[o].candidate != self.blocks[one].candidate);
+            models.extend(others.map(|&other| model(vec![one, other])));
+        }
+        models.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
+        models
+    }
+}

@@ -1,0 +1,186 @@
+//! The fit of the full forward model: the pixels' own numbers and the effects' parameters together, by Gauss and Newton.
+
+use super::columns::{Column, OWN, Tangents};
+use super::data::Data;
+use super::gram::{Gram, Noise, Projected};
+use super::pieces::Piece;
+use crate::bench::chain;
+use crate::physics::{Chain, Memory, Pixels};
+use nalgebra::{DVector, Matrix4, Vector4};
+use std::sync::Arc;
+
+/// A fitted model.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// The pixels, with their own numbers.
+    pub pixels: Arc<Pixels>,
+    /// The effects, with their values.
+    pub pieces: Vec<Piece>,
+    /// The fitted parameters, in the order of `sigma`.
+    pub columns: Vec<Column>,
+    /// Standard deviations of the fitted parameters.
+    pub sigma: Vec<f64>,
+    /// Chi squared, with the sets' common position errors taken out.
+    pub chi2: f64,
+    /// Samples.
+    pub samples: usize,
+    /// Variance of the encoder's reading, m².
+    pub jitter_m2: f64,
+}
+
+/// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
+const BACKGROUND_M: f64 = 1.0;
+
+fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
+    let geometry = data.geometry();
+    let camera = &data.camera;
+    let obliquity = (0..geometry.pixels()).map(|pixel| {
+        let (row, column) = geometry.row_column(pixel);
+        camera.obliquity(row, column)
+    });
+    let edges = Pixels::edges_of(geometry, &data.target);
+    let edge_counts = Pixels::edge_counts_of(&edges);
+    let [amplitude_1m_dn, phase_rad, constant_1m_dn, ambient_dn] = numbers;
+    Pixels {
+        geometry,
+        target: data.target.clone(),
+        obliquity: obliquity.collect(),
+        background_m: vec![BACKGROUND_M; geometry.pixels()],
+        phase_rad,
+        amplitude_1m_dn,
+        constant_1m_dn,
+        ambient_dn,
+        full_scale_dn: f64::from((1_u32 << camera.adc_bits) - 1) - camera.pedestal_dn,
+        pedestal_dn: camera.pedestal_dn,
+        edges,
+        edge_counts,
+    }
+}
+
+/// The pixels' own numbers from a linear fit of the fundamental.
+fn start(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
+    let count = data.pixels();
+    let unit = |amplitude: f64, phase_rad: f64, constant: f64, ambient: f64| {
+        let numbers = [amplitude, phase_rad, constant, ambient].map(|value| vec![value; count]);
+        chain(&data.camera, Arc::new(pixels(data, numbers)), Vec::new())
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let basis: [Chain; OWN] =
+        [unit(1.0, 0.0, 0.0, 0.0), unit(1.0, quarter, 0.0, 0.0), unit(0.0, 0.0, 1.0, 0.0), unit(0.0, 0.0, 0.0, 1.0)];
+    let mut normal = vec![(Matrix4::<f64>::zeros(), Vector4::<f64>::zeros()); count];
+    let mut number = 0;
+    for take in &data.takes {
+        for (index, moment) in take.moments.iter().enumerate() {
+            if index % take.frames == 0 {
+                number += 1;
+            }
+            if !counts(number - 1) {
+                continue;
+            }
+            let signals = basis.each_ref().map(|chain| chain.expose(*moment, Memory::default()).signal_dn);
+            for pixel in 0..count {
+                let measured = f64::from(take.signal_dn[index * count + pixel]);
+                if measured.is_nan() {
+                    continue;
+                }
+                let constant = if data.target[pixel] { signals[2][pixel] } else { 0.0 };
+                let own = Vector4::new(signals[0][pixel], signals[1][pixel], constant, signals[3][pixel]);
+                normal[pixel].0 += own * own.transpose();
+                normal[pixel].1 += own * measured;
+            }
+        }
+    }
+    let mut numbers = [(); OWN].map(|()| vec![0.0; count]);
+    for (pixel, (matrix, vector)) in normal.iter().enumerate() {
+        let solution = matrix.svd(true, true).solve(vector, 1e-9 * matrix.norm()).unwrap_or_default();
+        numbers[0][pixel] = solution[0].hypot(solution[1]);
+        numbers[1][pixel] = solution[1].atan2(solution[0]);
+        numbers[2][pixel] = solution[2];
+        numbers[3][pixel] = solution[3];
+    }
+    Arc::new(pixels(data, numbers))
+}
+
+/// Iterations of Gauss and Newton: the pixels' own numbers start close.
+const ITERATIONS: usize = 3;
+
+/// Fits `pieces` from their values on, with the pixels of `from` or from scratch, to the sets of which `counts` is true.
+pub fn fit(
+    data: &Data,
+    from: Option<&Fit>,
+    pieces: Vec<Piece>,
+    noise: Noise,
+    counts: &(dyn Fn(usize) -> bool + Sync),
+) -> Fit {
+    let mut pixels = from.map_or_else(|| start(data, counts), |fit| Arc::clone(&fit.pixels));
+    let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
+    for piece in &mut pieces {
+        // Shapes are fitted where there is something to fit.
+        for (number, parameter) in piece.effect.parameters.iter().enumerate().filter(|(_, p)| p.is_shape()) {
+            let there = piece.effect.parameters.iter().zip(&piece.values).any(|(p, &v)| !p.is_shape() && v != p.off);
+            if there && parameter.shapes.len() > 1 && !piece.free.contains(&number) {
+                piece.free.push(number);
+            }
+        }
+    }
+    let mut iterations = if pieces.is_empty() { ITERATIONS } else { ITERATIONS + 1 };
+    loop {
+        let (tangents, columns) = Tangents::new(data, &pixels, &pieces, &[]);
+        let gram = Gram::of(data, &tangents, noise, counts);
+        let projected = gram.project(None);
+        let (theta, sigma) = step(&projected);
+        if iterations == 0 {
+            return Fit {
+                pixels,
+                pieces,
+                columns,
+                sigma,
+                chi2: projected.chi2,
+                samples: gram.samples,
+                jitter_m2: projected.jitter_m2,
+            };
+        }
+        iterations -= 1;
+        let own = projected.own(&theta);
+        pixels = Arc::new(moved(&pixels, &own));
+        for (column, step) in columns.iter().zip(theta.iter()) {
+            let piece = &mut pieces[column.piece];
+            let parameter = &piece.effect.parameters[column.parameter];
+            let value = &mut piece.values[column.parameter];
+            // A shape moves by a third of itself at most: its tangent holds nearby.
+            let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
+            *value = (*value + step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
+        }
+    }
+}
+
+/// The step to the minimum, and the standard deviations there.
+fn step(projected: &Projected) -> (DVector<f64>, Vec<f64>) {
+    let size = projected.vector.len();
+    if size == 0 {
+        return (DVector::zeros(0), Vec::new());
+    }
+    let scale = DVector::from_fn(size, |c, _| {
+        let diagonal = projected.matrix[(c, c)];
+        if diagonal > 1e-9 * projected.raw[c] { diagonal.sqrt().recip() } else { 0.0 }
+    });
+    let scaled = projected.matrix.map_with_location(|row, column, value| value * scale[row] * scale[column]);
+    let eigen = scaled.symmetric_eigen();
+    let kept = eigen.eigenvalues.map(|value| if value > 1e-6 { value.recip() } else { 0.0 });
+    let inverse = &eigen.eigenvectors * nalgebra::DMatrix::from_diagonal(&kept) * eigen.eigenvectors.transpose();
+    let theta = (&inverse * projected.vector.component_mul(&scale)).component_mul(&scale);
+    let sigma = (0..size).map(|c| if scale[c] > 0.0 { inverse[(c, c)].max(0.0).sqrt() * scale[c] } else { f64::INFINITY });
+    (theta, sigma.collect())
+}
+
+/// The pixels with their own numbers moved.
+fn moved(pixels: &Pixels, own: &[Vector4<f64>]) -> Pixels {
+    let mut moved = pixels.clone();
+    for (pixel, step) in own.iter().enumerate() {
+        moved.amplitude_1m_dn[pixel] += step[0];
+        moved.phase_rad[pixel] += step[1];
+        moved.constant_1m_dn[pixel] += step[2];
+        moved.ambient_dn[pixel] += step[3];
+    }
+    moved
+}

@@ -1,0 +1,116 @@
+//! What may be added to the baseline: effects with values, which of them are fitted, and to which recordings they belong.
+
+use super::data::Data;
+use crate::physics::{Active, Chance, EFFECTS, Effect};
+
+/// An effect at certain values, in some of the recordings.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// The effect.
+    pub effect: &'static Effect,
+    /// One value a parameter.
+    pub values: Vec<f64>,
+    /// Which of them are fitted.
+    pub free: Vec<usize>,
+    /// The recordings in which it acts, by their numbers.
+    pub takes: Vec<usize>,
+    /// Whether its tangent is taken from off to `values`, because it starts with a corner.
+    pub finite: bool,
+}
+
+/// One way in which an effect may be there: its pieces together.
+#[derive(Debug, Clone)]
+pub struct Variant {
+    /// The pieces, all of the same effect.
+    pub pieces: Vec<Piece>,
+}
+
+/// An effect that is a candidate, in all variants of its shape.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// The effect.
+    pub effect: &'static Effect,
+    /// At least one.
+    pub variants: Vec<Variant>,
+}
+
+/// Effects whose values belong to one recording each (their phase starts anew), or to the recordings of one scheme.
+const BY_TAKE: [&str; 1] = ["ambient_flicker"];
+const BY_SCHEME: [&str; 2] = ["phase_step_errors", "frame_gain"];
+/// Effects that start with a corner, and the values at which they are tried.
+const FINITE: [(&str, &[f64]); 2] = [
+    ("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8]),
+    ("fixed_point", &[1.0, 2.0, 3.0, 4.0]),
+];
+
+/// All candidates that `data` could need: those of the registry that its camera does not include.
+pub fn candidates(data: &Data) -> Vec<Candidate> {
+    let included = |effect: &Effect| {
+        data.camera.includes(effect.name)
+            || effect.name == "axial_motion" && data.camera.includes(crate::recording::AXIAL_MOTION)
+    };
+    EFFECTS
+        .iter()
+        .copied()
+        .filter(|effect| effect.chance == Chance::None && !included(effect))
+        .map(|effect| Candidate { effect, variants: variants(effect, data) })
+        .collect()
+}
+
+fn variants(effect: &'static Effect, data: &Data) -> Vec<Variant> {
+    if let Some((_, values)) = FINITE.iter().find(|(name, _)| *name == effect.name) {
+        let piece = |&value: &f64| Piece {
+            effect,
+            values: vec![value],
+            free: vec![0],
+            takes: (0..data.takes.len()).collect(),
+            finite: true,
+        };
+        return values.iter().map(|value| Variant { pieces: vec![piece(value)] }).collect();
+    }
+    let shape = effect.parameters.iter().position(|parameter| parameter.is_shape());
+    let shapes: &[f64] = shape.map_or(&[0.0], |shape| effect.parameters[shape].shapes);
+    shapes
+        .iter()
+        .map(|&value| {
+            let mut values = effect.off();
+            if let Some(shape) = shape {
+                values[shape] = value;
+            }
+            Variant { pieces: pieces(effect, &values, data) }
+        })
+        .collect()
+}
+
+fn pieces(effect: &'static Effect, values: &[f64], data: &Data) -> Vec<Piece> {
+    let all: Vec<usize> = (0..data.takes.len()).collect();
+    let groups: Vec<Vec<usize>> = if BY_TAKE.contains(&effect.name) {
+        all.iter().map(|&take| vec![take]).collect()
+    } else if BY_SCHEME.contains(&effect.name) {
+        let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
+        schemes.sort_unstable();
+        schemes.dedup();
+        let of = |frames: usize| all.iter().copied().filter(|&take| data.takes[take].frames == frames).collect();
+        schemes.into_iter().map(of).collect()
+    } else {
+        vec![all]
+    };
+    let strengths = effect.parameters.iter().enumerate().filter(|(_, parameter)| !parameter.is_shape());
+    let strengths: Vec<usize> = strengths.map(|(number, _)| number).collect();
+    groups
+        .into_iter()
+        .map(|takes| {
+            let frames = takes.iter().map(|&take| data.takes[take].frames).max().unwrap_or(0);
+            // A parameter of a frame that there is not.
+            let there = |&number: &usize| !BY_SCHEME.contains(&effect.name) || number < frames;
+            let free = strengths.iter().copied().filter(there).collect();
+            Piece { effect, values: values.to_vec(), free, takes, finite: false }
+        })
+        .collect()
+}
+
+/// The effects of `pieces` that act in recording `take`.
+pub fn active(pieces: &[Piece], take: usize) -> Vec<Active> {
+    let here = pieces.iter().filter(|piece| piece.takes.contains(&take));
+    here.map(|piece| Active { effect: piece.effect, values: piece.values.clone() }).collect()
+}

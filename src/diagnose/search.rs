@@ -1,0 +1,174 @@
+//! The search: baseline, evidence of all candidates at once, fit of the best, and again for what is left.
+
+use super::columns::Tangents;
+use super::data::Data;
+use super::evidence::{Block, Evidence, Model};
+use super::fit::{Fit, fit};
+use super::gram::{Gram, Noise};
+use super::pieces::{Candidate, Piece, candidates};
+
+/// Less evidence than this (nats) asserts nothing.
+pub const THRESHOLD: f64 = 1.0;
+/// A rival within so many nats is possible too.
+const RIVAL_NATS: f64 = 3.0;
+const MOST_EFFECTS: usize = 4;
+
+/// An effect that is asserted.
+#[derive(Debug, Clone)]
+pub struct Named {
+    /// Its name.
+    pub name: &'static str,
+    /// Evidence when it was found, beside those before it, nats.
+    pub ln_bayes: f64,
+    /// Score statistic and its degrees of freedom when it was found.
+    pub score: (f64, usize),
+    /// Other effects, or combinations joined by " + ", that do about as well.
+    pub rivals: Vec<String>,
+}
+
+/// What the search found.
+#[derive(Debug)]
+pub struct Found {
+    /// The baseline's fit.
+    pub baseline: Fit,
+    /// The fit with what was found; the baseline where nothing was.
+    pub fit: Fit,
+    /// The effects, in the order in which they were found.
+    pub named: Vec<Named>,
+    /// Candidates whose every column is absorbed by the pixels' own numbers.
+    pub invisible: Vec<&'static str>,
+    /// Smallest strength of each effect's parameters that would be seen at 5 standard deviations: `(effect, parameter, value)`.
+    pub detectable: Vec<(&'static str, usize, f64)>,
+    /// Score statistic of each candidate alone at the baseline, its degrees of freedom, evidence: for `ruled_out`.
+    pub alone: Vec<(&'static str, f64, usize, f64)>,
+}
+
+struct Pass {
+    models: Vec<Model>,
+    blocks: Vec<Block>,
+    scores: Vec<Option<(f64, usize)>>,
+    invisible: Vec<&'static str>,
+    detectable: Vec<(&'static str, usize, f64)>,
+    singles: Vec<f64>,
+}
+
+/// All candidates at the fit `base`, with what it has fitted projected out.
+fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter: Option<f64>) -> Pass {
+    let (mut tried, mut blocks): (Vec<Piece>, Vec<Block>) = (Vec::new(), Vec::new());
+    let mut column = base.columns.len();
+    let mut parameters = vec![(usize::MAX, 0); column];
+    for (number, candidate) in candidates.iter().enumerate() {
+        // What is fitted already is not tried again.
+        if base.pieces.iter().any(|piece| piece.effect.name == candidate.effect.name) {
+            continue;
+        }
+        for (variant, of) in candidate.variants.iter().enumerate() {
+            let mut columns = Vec::new();
+            for piece in &of.pieces {
+                for &parameter in &piece.free {
+                    columns.push(column);
+                    parameters.push((number, parameter));
+                    column += 1;
+                }
+                tried.push(piece.clone());
+            }
+            blocks.push(Block { candidate: number, variant, variants: candidate.variants.len(), columns });
+        }
+    }
+    let (tangents, _) = Tangents::new(data, &base.pixels, &base.pieces, &tried);
+    let gram = Gram::of(data, &tangents, noise, &|_| true);
+    let mut projected = gram.project(jitter);
+    // What is fitted takes its share first.
+    for fitted in 0..base.columns.len() {
+        let pivot = projected.matrix[(fitted, fitted)];
+        if pivot > 1e-9 * projected.raw[fitted] {
+            let row = projected.matrix.column(fitted).into_owned();
+            let step = projected.vector[fitted] / pivot;
+            projected.vector.axpy(-step, &row, 1.0);
+            projected.matrix.ger(-pivot.recip(), &row, &row, 1.0);
+        }
+    }
+    let evidence = Evidence::new(&projected.matrix, &projected.vector, &projected.raw, &blocks, candidates.len());
+    let scores: Vec<_> = (0..blocks.len()).map(|block| evidence.score(block)).collect();
+    let unseen = |number: &usize| {
+        let mut of = blocks.iter().zip(&scores).filter(|(block, _)| block.candidate == *number).peekable();
+        of.peek().is_some() && of.all(|(_, score)| score.is_none())
+    };
+    let invisible = (0..candidates.len()).filter(unseen).map(|number| candidates[number].effect.name).collect();
+    let mut detectable: Vec<(&'static str, usize, f64)> = Vec::new();
+    for (column, &(number, parameter)) in parameters.iter().enumerate().filter(|(_, p)| p.0 != usize::MAX) {
+        let information = projected.matrix[(column, column)];
+        if information > super::evidence::VISIBLE * projected.raw[column] {
+            let (name, value) = (candidates[number].effect.name, 5.0 / information.sqrt());
+            match detectable.iter_mut().find(|row| row.0 == name && row.1 == parameter) {
+                Some(row) => row.2 = row.2.min(value),
+                None => detectable.push((name, parameter, value)),
+            }
+        }
+    }
+    let singles = (0..blocks.len()).map(|block| evidence.ln_bayes(&[block])).collect();
+    Pass { models: evidence.models(), scores, invisible, detectable, singles, blocks }
+}
+
+impl Pass {
+    fn names(&self, model: &Model, candidates: &[Candidate]) -> Vec<&'static str> {
+        model.blocks.iter().map(|&block| candidates[self.blocks[block].candidate].effect.name).collect()
+    }
+}
+
+/// Searches `data`.
+pub fn search(data: &Data, noise: Noise) -> Found {
+    let candidates = candidates(data);
+    let baseline = fit(data, None, Vec::new(), noise, &|_| true);
+    let mut current = baseline.clone();
+    let mut named: Vec<Named> = Vec::new();
+    let (mut invisible, mut detectable, mut alone) = (Vec::new(), Vec::new(), Vec::new());
+    loop {
+        let pass = pass(data, &current, &candidates, noise, None);
+        if named.is_empty() {
+            invisible.clone_from(&pass.invisible);
+            detectable.clone_from(&pass.detectable);
+            for (number, candidate) in candidates.iter().enumerate() {
+                let best = (0..pass.blocks.len()).filter(|&b| pass.blocks[b].candidate == number);
+                if let Some(best) = best.max_by(|&a, &b| pass.singles[a].total_cmp(&pass.singles[b])) {
+                    let (chi2, degrees) = pass.scores[best].unwrap_or((0.0, 0));
+                    alone.push((candidate.effect.name, chi2, degrees, pass.singles[best]));
+                }
+            }
+        }
+        let Some(best) = pass.models.first().filter(|model| model.ln_bayes > THRESHOLD) else { break };
+        // The simplest of the models within the evidence.
+        let best = pass
+            .models
+            .iter()
+            .filter(|model| model.ln_bayes > best.ln_bayes - RIVAL_NATS)
+            .min_by_key(|model| model.blocks.len())
+            .unwrap_or(best);
+        let names = pass.names(best, &candidates);
+        if names.len() + named.len() > MOST_EFFECTS {
+            break;
+        }
+        let mut rivals: Vec<String> = pass
+            .models
+            .iter()
+            .take_while(|model| model.ln_bayes > best.ln_bayes - RIVAL_NATS)
+            .filter(|model| model.blocks.len() <= best.blocks.len())
+            .map(|model| pass.names(model, &candidates).join(" + "))
+            .filter(|rival| *rival != names.join(" + "))
+            .collect();
+        rivals.dedup();
+        let mut pieces = current.pieces.clone();
+        for &block in &best.blocks {
+            let block_of = &pass.blocks[block];
+            pieces.extend(candidates[block_of.candidate].variants[block_of.variant].pieces.iter().cloned());
+            named.push(Named {
+                name: candidates[block_of.candidate].effect.name,
+                ln_bayes: best.ln_bayes,
+                score: pass.scores[block].unwrap_or((0.0, 0)),
+                rivals: rivals.clone(),
+            });
+        }
+        current = fit(data, Some(&current), pieces, noise, &|_| true);
+    }
+    Found { baseline, fit: current, named, invisible, detectable, alone }
+}
