@@ -1,4 +1,4 @@
-//! Figures 7 and 11: the motion errors that were measured, of four frames and of the WDFT.
+//! Figure 7: the motion error that was measured of four frames.
 
 use super::camera::{Camera, Conditions, Method};
 use super::figure::{Figure, Plot};
@@ -9,7 +9,7 @@ pub fn with_falloff(constant_ratio: f64) -> Conditions {
     Conditions { falloff: true, constant_ratio, ..Conditions::table_1() }
 }
 
-/// Figure `number`: a hundred simulated runs of `method`, and the curves behind them.
+/// Figure `number`, 7 or 11: a hundred simulated runs of `method`, and the curves behind them.
 pub fn figure(number: u32, title: &'static str, method: &Method) -> Figure {
     let with = Camera::new(with_falloff(1.0));
     let without = Camera::new(Conditions::table_1());

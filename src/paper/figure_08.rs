@@ -8,11 +8,11 @@ use crate::physics::Correlation;
 use crate::problem::Result;
 
 /// Step errors up to a tenth of the step.
-pub const STEP_ERRORS: u32 = 40;
-pub const LARGEST: f64 = 0.1;
+const STEP_ERRORS: u32 = 40;
+const LARGEST: f64 = 0.1;
 
 /// Rows with a third of a turn as the step and one, two and three roots at the image.
-pub const ROWS: [(&str, &str); 3] =
+const ROWS: [(&str, &str); 3] =
     [("one root", "dft-3"), ("two roots", "n-plus-1-b-3"), ("three roots", "n-plus-3-3")];
 
 /// Step error and half the range of the error, m, of `method` on `correlation`.

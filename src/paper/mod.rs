@@ -15,15 +15,21 @@ pub mod figure_07;
 pub mod figure_08;
 mod figure_09;
 mod figure_10;
+mod figure_11;
 pub mod figure_12;
 pub mod linearity;
 pub mod motion;
+pub mod open_question;
+mod open_question_table;
 mod quantity;
 pub mod residual;
+pub mod rivals;
 pub mod table_1;
 
 pub use figure::{Figure, Plot, Stroke, Table, mm};
 pub use quantity::{Measured, Quantity};
+
+pub use open_question_table::table as open_question_table;
 
 use crate::problem::Result;
 use camera::Method;
@@ -46,7 +52,7 @@ pub fn figures() -> Result<Vec<Figure>> {
         figure_08::figure()?,
         figure_09::figure()?,
         figure_10::figure(wdft),
-        figure_07::figure(11, "WDFT: motion error at 2 m/s, as measured", wdft),
+        figure_11::figure(wdft),
         figure_12::figure(&methods),
     ])
 }
