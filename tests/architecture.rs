@@ -14,11 +14,11 @@ const EDGES: &Edges = &[
     ("main", "cli"),
     (
         "cli",
-        "algorithms artifact bench cosim frames hdl model package physics problem proof ranging recording reference report spec \
+        "algorithms artifact bench cosim frames hdl model package paper physics problem proof ranging recording reference report spec \
          sweep synthesis units",
     ),
     ("package", "artifact hdl report spec units"),
-    ("report", "algorithms bench frames hdl physics problem spec sweep synthesis units"),
+    ("report", "algorithms bench frames hdl paper physics problem spec sweep synthesis units"),
     ("algorithms", "problem spec units"),
     ("bench", "frames physics problem recording spec units"),
     ("paper", "algorithms frames physics problem units"),

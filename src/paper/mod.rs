@@ -21,12 +21,14 @@ pub mod linearity;
 pub mod motion;
 pub mod open_question;
 mod open_question_table;
+mod quantities;
 mod quantity;
 pub mod residual;
 pub mod rivals;
 pub mod table_1;
 
 pub use figure::{Figure, Plot, Stroke, Table, mm};
+pub use quantities::{linearity_range_m, quantities};
 pub use quantity::{Measured, Quantity};
 
 pub use open_question_table::table as open_question_table;
