@@ -16,6 +16,6 @@ pub fn figure(wdft: &Method) -> Figure {
             Plot::dots("moved, 100 measurements a step", by_moving(&camera, wdft)),
             Plot::line("phase stepping", by_phase_stepping(&camera, wdft)),
         ],
-        assumed: "phases 0; rail from 0.5 to 4.5 m; light, noise and full well of the simulator's camera: it saturates below 0.8 m",
+        assumed: "phases 0; rail from 0.9 to 4.9 m; light and noise of the simulator's camera",
     }
 }

@@ -10,7 +10,7 @@ const OFFSETS: u32 = 400;
 /// Where the still target stands, m: assumed.
 const STILL_M: f64 = 2.0;
 /// The moved target's first place, m (assumed), and number of steps of 50 mm.
-const FIRST_M: f64 = 0.5;
+const FIRST_M: f64 = 0.9;
 const STEPS: u32 = 80;
 const STEP_M: f64 = 0.05;
 /// Measurements a step, whose intensities are averaged.

@@ -4,7 +4,7 @@
 //! fitted to the four numbers that the paper measured. Another hypothesis with one free number stands beside it: frames that are
 //! farther apart than 125 ms allow. Frames are linear in the ratio, so that two simulations tell all.
 
-use super::camera::{Camera, FREQUENCY_HZ, Method, Set};
+use super::camera::{Camera, Conditions, FREQUENCY_HZ, Method, Set};
 use super::figure_07::with_falloff;
 use super::linearity::SEED;
 use super::motion::{VELOCITY_M_S, error_curve, places_m};
@@ -41,6 +41,9 @@ pub fn chi_squared(predicted_m: &[f64; 4]) -> f64 {
     predicted_m.iter().zip(&MEASURED).map(term).sum()
 }
 
+/// A free number, a random error in m where it is free too, and what they predict.
+type Trial = (f64, Option<f64>, [f64; 4]);
+
 /// A hypothesis at its best.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
@@ -66,8 +69,8 @@ impl Fit {
     }
 
     /// The best of (free number, random error, predicted); `None` where there is none.
-    fn best(hypothesis: &'static str, tried: &[(f64, Option<f64>, [f64; 4])]) -> Option<Self> {
-        let scored = |one: &(f64, Option<f64>, [f64; 4])| chi_squared(&one.2);
+    fn best(hypothesis: &'static str, tried: &[Trial]) -> Option<Self> {
+        let scored = |one: &Trial| chi_squared(&one.2);
         let best = tried.iter().min_by(|one, other| scored(one).total_cmp(&scored(other)))?;
         let least = scored(best);
         let inside = tried.iter().filter(|one| scored(one) <= least + 1.0).map(|one| one.0);
@@ -158,45 +161,55 @@ fn of_runs(errors_m: &[f64], runs: &[Run], random_m: f64) -> [f64; 2] {
     [0, 1].map(|number| mean(&all.iter().map(|one| one[number]).collect::<Vec<_>>()))
 }
 
+/// A free number, and the errors, m, that it makes of both methods at every place.
+type Tried = [(f64, [Vec<f64>; 2])];
+
+fn by_curve(tried: &Tried) -> Vec<Trial> {
+    let numbers = |[a, b]: &[Vec<f64>; 2]| four_numbers(of_curve(a), of_curve(b));
+    tried.iter().map(|(free, errors_m)| (*free, None, numbers(errors_m))).collect()
+}
+
+fn by_runs(tried: &Tried, runs: &[Run], random_m: f64, free: Option<f64>) -> Vec<Trial> {
+    let numbers =
+        |[a, b]: &[Vec<f64>; 2]| four_numbers(of_runs(a, runs, random_m), of_runs(b, runs, random_m));
+    tried.iter().map(|(ratio, errors_m)| (*ratio, free, numbers(errors_m))).collect()
+}
+
+fn with_random(tried: &Tried, runs: &[Run]) -> Vec<Trial> {
+    let random_m = (0..=RANDOM).map(|n| f64::from(n) * RANDOM_SPACING_M);
+    random_m.flat_map(|random_m| by_runs(tried, runs, random_m, Some(random_m))).collect()
+}
+
 /// All hypotheses, from the one without free numbers on.
 pub fn fits(methods: &[Method; 2]) -> Vec<Fit> {
-    let curve = |method: &Method, velocity_m_s| {
-        let camera = Camera::new(super::camera::Conditions::table_1());
-        let points = error_curve(&camera, method, velocity_m_s);
-        of_curve(&points.into_iter().map(|point| point.1).collect::<Vec<_>>())
-    };
-    let both =
-        |velocity_m_s| four_numbers(curve(&methods[0], velocity_m_s), curve(&methods[1], velocity_m_s));
     let curves = [Curves::of(&methods[0]), Curves::of(&methods[1])];
-    let errors: Vec<(f64, [Vec<f64>; 2])> = (0..=RATIOS)
-        .map(|n| f64::from(n) * RATIO_SPACING)
-        .map(|ratio| (ratio, [curves[0].errors_m(ratio), curves[1].errors_m(ratio)]))
-        .collect();
-    let runs = drawn_runs(curves[0].places_m.len());
-    let by_curve =
-        errors.iter().map(|(ratio, [a, b])| (*ratio, None, four_numbers(of_curve(a), of_curve(b))));
-    let by_runs = |random_m: f64, free: Option<f64>| {
-        let runs = &runs;
-        errors.iter().map(move |(ratio, [a, b])| {
-            let numbers = four_numbers(of_runs(a, runs, random_m), of_runs(b, runs, random_m));
-            (*ratio, free, numbers)
-        })
+    let ratios = (0..=RATIOS).map(|n| f64::from(n) * RATIO_SPACING);
+    let falling: Vec<(f64, [Vec<f64>; 2])> =
+        ratios.map(|ratio| (ratio, [curves[0].errors_m(ratio), curves[1].errors_m(ratio)])).collect();
+    // Without falloff a longer frame period is a faster target, but for the static error.
+    let plain_m = |method: &Method, velocity_m_s| -> Vec<f64> {
+        let camera = Camera::new(Conditions::table_1());
+        error_curve(&camera, method, velocity_m_s).into_iter().map(|point| point.1).collect()
     };
-    let random = (0..=RANDOM).map(|n| f64::from(n) * RANDOM_SPACING_M);
-    let with_random = random.flat_map(|random_m| by_runs(random_m, Some(random_m)));
     let factors = (0..=FACTORS).map(|n| 1.0 + f64::from(n) * FACTOR_SPACING);
-    let slower = factors.map(|factor| (factor, None, both(factor * VELOCITY_M_S)));
-    let fixed = Fit::fixed("no falloff within a set; nothing free", both(VELOCITY_M_S));
+    let of_factor =
+        |factor: f64| [0, 1].map(|number: usize| plain_m(&methods[number], factor * VELOCITY_M_S));
+    let slower: Vec<(f64, [Vec<f64>; 2])> = factors.map(|factor| (factor, of_factor(factor))).collect();
+    let runs = drawn_runs(curves[0].places_m.len());
+    // The first factor is 1.
+    let fixed = by_curve(&slower[..1]).into_iter();
+    let fixed = fixed.map(|trial| Fit::fixed("no falloff within a set; nothing free", trial.2));
     let fitted = [
-        Fit::best("falloff; ratio of constant to modulated light", &by_curve.collect::<Vec<_>>()),
+        Fit::best("falloff; ratio of constant to modulated light", &by_curve(&falling)),
         Fit::best(
             "the same, RMS and range of each run instead of the curve",
-            &by_runs(0.0, None).collect::<Vec<_>>(),
+            &by_runs(&falling, &runs, 0.0, None),
         ),
-        Fit::best("the same, and a random error", &with_random.collect::<Vec<_>>()),
-        Fit::best("no falloff; factor on the frame period", &slower.collect::<Vec<_>>()),
+        Fit::best("the same, and a random error", &with_random(&falling, &runs)),
+        Fit::best("no falloff; factor on the frame period", &by_curve(&slower)),
+        Fit::best("the same, of each run, and a random error", &with_random(&slower, &runs)),
     ];
-    std::iter::once(fixed).chain(fitted.into_iter().flatten()).collect()
+    fixed.chain(fitted.into_iter().flatten()).collect()
 }
 
 #[cfg(test)]

@@ -48,13 +48,21 @@ pub fn ordered_rms_m(method: &Method, conditions: Conditions, order: &[usize]) -
     rms(&without_mean(&(0..OFFSETS).map(error).collect::<Vec<_>>()))
 }
 
-/// The order with the least error of all, and that.
-fn best(method: &Method, conditions: &Conditions) -> Option<(Vec<usize>, f64)> {
-    let scored = orders(method.steps_rad.len()).into_iter().map(|order| {
+/// Orders whose errors differ by less, m, are as good as each other: the first of them stands for all.
+const AS_GOOD_M: f64 = 1e-6;
+
+/// The order with the least error of all.
+fn best(method: &Method, conditions: &Conditions) -> Vec<usize> {
+    let mut all = orders(method.steps_rad.len());
+    all.sort();
+    let mut best = (Vec::new(), f64::INFINITY);
+    for order in all {
         let rms_m = ordered_rms_m(method, conditions.clone(), &order);
-        (order, rms_m)
-    });
-    scored.min_by(|one, other| one.1.total_cmp(&other.1))
+        if rms_m < best.1 - AS_GOOD_M {
+            best = (order, rms_m);
+        }
+    }
+    best.0
 }
 
 /// The table.
@@ -67,11 +75,11 @@ pub fn table(methods: &[Method; 2]) -> Table {
     let mut rows = Vec::new();
     for method in methods {
         let usual: Vec<usize> = (0..method.steps_rad.len()).collect();
+        let found = [(&plain, "without falloff"), (&falloff, "with falloff")]
+            .map(|(conditions, what)| (best(method, conditions), what));
         rows.push(row(format!("{}, usual order", method.name), method, &usual));
-        for (conditions, what) in [(&plain, "without falloff"), (&falloff, "with falloff")] {
-            if let Some((order, _)) = best(method, conditions) {
-                rows.push(row(format!("{}, order {order:?}, the best {what}", method.name), method, &order));
-            }
+        for (order, what) in found {
+            rows.push(row(format!("{}, the best {what}: {order:?}", method.name), method, &order));
         }
     }
     let four = &methods[0];
