@@ -163,6 +163,13 @@ fn the_fit_is_the_least_of_all() {
     assert!(at(low) <= at(best) + 1.0 && at(low - 0.01) > at(best) + 1.0);
     assert!(at(high) <= at(best) + 1.0 && at(high + 0.01) > at(best) + 1.0);
     assert!(all[1..].iter().all(|fit| fit.chi_squared <= all[0].chi_squared));
+    // What the table's notes say. Beyond 7.81, χ² of three degrees of freedom is in one case of twenty.
+    assert!(all[1].chi_squared > 7.81 && all[3].chi_squared < 3.0);
+    assert!(all[3].free.unwrap()[2] < std::f64::consts::PI.powi(2) / 8.0);
+    assert!(all[4].chi_squared < all[1].chi_squared && all[5].chi_squared < all[3].chi_squared + 0.5);
+    assert!(
+        (all[3].random_m.unwrap() - 0.010).abs() < 0.002 && (all[5].random_m.unwrap() - 0.010).abs() < 0.002
+    );
     assert_eq!(chi_squared(&MEASURED.map(|measured| measured.value)), 0.0);
 }
 

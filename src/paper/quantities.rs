@@ -44,7 +44,7 @@ fn linearity(method: &Method, measured: Measured) -> Vec<Quantity> {
     // Random phases come close to the least of all, and never quite there.
     let none = measured.value + measured.error < low_m.min(rms(&stepped_m));
     let why = if none {
-        format!("{range}; no phases are enough: the even harmonics were less here, or the fit took some")
+        format!("{range}; none brings Table I down to what was measured, so that this is open")
     } else {
         range
     };

@@ -146,7 +146,7 @@ pub fn figure_picture(figure: &Figure) -> String {
     let mut legend = RIGHT;
     for (number, plot) in figure.plots.iter().enumerate().rev() {
         let colour = COLOURS[number % COLOURS.len()];
-        draw(&mut svg, plot, colour, (&x, &y), up.low.max(up.high.min(0.0)));
+        draw(&mut svg, plot, colour, (&x, &y));
         legend -= 24.0 + 7.2 * plot.name.chars().count() as f64;
         svg.swatch(legend, TOP - 21.0, colour);
         svg.text(legend + 17.0, TOP - 10.0, "soft", &plot.name);
@@ -156,15 +156,14 @@ pub fn figure_picture(figure: &Figure) -> String {
 
 type Places<'a> = (&'a dyn Fn(f64) -> f64, &'a dyn Fn(f64) -> f64);
 
-fn draw(svg: &mut Svg, plot: &Plot, colour: &str, (x, y): Places, foot: f64) {
+fn draw(svg: &mut Svg, plot: &Plot, colour: &str, (x, y): Places) {
     let placed = plot.points.iter().map(|point| (x(point.0), y(point.1)));
     match plot.stroke {
         Stroke::Line => svg.stroke(&placed.collect::<Vec<_>>(), colour, 1.8),
         Stroke::Dots => placed.for_each(|at| svg.dot(at, 2.4, colour, &plot.name)),
         // Logarithms are below zero: a bar stands on the axis.
         Stroke::Bars => {
-            let low = y(foot).max(BOTTOM);
-            placed.for_each(|at| svg.stroke(&[(at.0, low), at], colour, 9.0));
+            placed.for_each(|at| svg.stroke(&[(at.0, BOTTOM), at], colour, 9.0));
         }
     }
 }
