@@ -97,8 +97,11 @@ struct Curves<'a> {
 }
 
 impl<'a> Curves<'a> {
-    fn of(method: &'a Method) -> Self {
-        let (none, one) = (Camera::new(with_falloff(0.0)), Camera::new(with_falloff(1.0)));
+    /// Under `waveform`'s correlation.
+    fn of(method: &'a Method, waveform: &Conditions) -> Self {
+        let correlation = || waveform.correlation.clone();
+        let camera = |ratio| Camera::new(Conditions { correlation: correlation(), ..with_falloff(ratio) });
+        let (none, one) = (camera(0.0), camera(1.0));
         let places_m = places_m();
         let frames = |camera: &Camera| {
             let at = |place_m: &f64| {
@@ -180,12 +183,25 @@ fn with_random(tried: &Tried, runs: &[Run]) -> Vec<Trial> {
     random_m.flat_map(|random_m| by_runs(tried, runs, random_m, Some(random_m))).collect()
 }
 
+/// Errors for every ratio, with the correlation of `waveform`.
+fn falling(methods: &[Method; 2], waveform: &Conditions) -> Vec<(f64, [Vec<f64>; 2])> {
+    let curves = [Curves::of(&methods[0], waveform), Curves::of(&methods[1], waveform)];
+    let ratios = (0..=RATIOS).map(|n| f64::from(n) * RATIO_SPACING);
+    ratios.map(|ratio| (ratio, [curves[0].errors_m(ratio), curves[1].errors_m(ratio)])).collect()
+}
+
+/// The least and largest ratio that is fitted to the curves under one of `waveforms`: `None` without any.
+pub fn ratios(methods: &[Method; 2], waveforms: &[Conditions]) -> Option<(f64, f64)> {
+    let fitted = |waveform| Some(Fit::best("", &by_curve(&falling(methods, waveform)))?.free?[0]);
+    waveforms.iter().filter_map(fitted).fold(None, |ends, ratio| {
+        let (low, high) = ends.unwrap_or((ratio, ratio));
+        Some((low.min(ratio), high.max(ratio)))
+    })
+}
+
 /// All hypotheses, from the one without free numbers on.
 pub fn fits(methods: &[Method; 2]) -> Vec<Fit> {
-    let curves = [Curves::of(&methods[0]), Curves::of(&methods[1])];
-    let ratios = (0..=RATIOS).map(|n| f64::from(n) * RATIO_SPACING);
-    let falling: Vec<(f64, [Vec<f64>; 2])> =
-        ratios.map(|ratio| (ratio, [curves[0].errors_m(ratio), curves[1].errors_m(ratio)])).collect();
+    let falling = falling(methods, &Conditions::table_1());
     // Without falloff a longer frame period is a faster target, but for the static error.
     let plain_m = |method: &Method, velocity_m_s| -> Vec<f64> {
         let camera = Camera::new(Conditions::table_1());
@@ -195,7 +211,7 @@ pub fn fits(methods: &[Method; 2]) -> Vec<Fit> {
     let of_factor =
         |factor: f64| [0, 1].map(|number: usize| plain_m(&methods[number], factor * VELOCITY_M_S));
     let slower: Vec<(f64, [Vec<f64>; 2])> = factors.map(|factor| (factor, of_factor(factor))).collect();
-    let runs = drawn_runs(curves[0].places_m.len());
+    let runs = drawn_runs(places_m().len());
     // The first factor is 1.
     let fixed = by_curve(&slower[..1]).into_iter();
     let fixed = fixed.map(|trial| Fit::fixed("no falloff within a set; nothing free", trial.2));
@@ -220,7 +236,7 @@ mod tests {
     #[test]
     fn two_ratios_tell_all() {
         for method in Method::both().unwrap() {
-            let errors_m = Curves::of(&method).errors_m(2.2);
+            let errors_m = Curves::of(&method, &Conditions::table_1()).errors_m(2.2);
             let camera = Camera::new(with_falloff(2.2));
             let whole: Vec<f64> = error_curve(&camera, &method, VELOCITY_M_S).iter().map(|p| p.1).collect();
             let apart =
