@@ -36,7 +36,7 @@ pub fn figure() -> Result<Figure> {
     };
     Ok(Figure {
         number: 8,
-        title: "A linear step error with one, two and three roots at m = \u{2212}1",
+        title: "Step error with one, two and three roots at m = \u{2212}1",
         abscissa: "step error, share of the step",
         ordinate: "half the range of the error, m",
         plots: ROWS.iter().map(plot).collect::<Result<_>>()?,

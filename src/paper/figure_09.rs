@@ -20,10 +20,10 @@ pub fn figure() -> Result<Figure> {
         |(name, row): &(&'static str, &str)| Ok(Plot::line(*name, swing(&Method::of(name, row)?, &third)));
     Ok(Figure {
         number: 9,
-        title: "The third harmonic under a linear step error with no, one and two roots at \u{b1}3",
+        title: "Third harmonic and step error with no, one and two roots at \u{b1}3",
         abscissa: "step error, share of the step",
         ordinate: "half the range of the error, m",
         plots: ROWS.iter().map(plot).collect::<Result<_>>()?,
-        assumed: "four frames, N+1 type B with N = 3, the WDFT; third harmonic of Table I, phase 0; 30 MHz",
+        assumed: "four frames, N+1 type B with N = 3, the WDFT (the image a root once, twice, twice); 1/31, phase 0; 30 MHz",
     })
 }

@@ -5,5 +5,5 @@ use super::figure::Figure;
 
 /// The figure.
 pub fn figure(wdft: &Method) -> Figure {
-    super::figure_07::figure(11, "WDFT: motion error at 2 m/s, as measured", wdft)
+    super::figure_07::figure(11, "WDFT: motion error at 2 m/s, taken as in the paper", wdft)
 }

@@ -50,7 +50,7 @@ pub fn figures() -> Result<Vec<Figure>> {
         figure_04::figure(four),
         figure_05::figure(four),
         figure_06::figure(four),
-        figure_07::figure(7, "Four frames: motion error at 2 m/s, as measured", four),
+        figure_07::figure(7, "Four frames: motion error at 2 m/s, taken as in the paper", four),
         figure_08::figure()?,
         figure_09::figure()?,
         figure_10::figure(wdft),

@@ -82,11 +82,15 @@ pub fn runs(camera: &Camera, method: &Method) -> Runs {
             let still_m: f64 = (0..CALIBRATIONS).map(|_| error_m(&Set::still(method, *place_m))).sum();
             moving_m - still_m / CALIBRATIONS as f64
         });
-        let errors_m = without_mean(&errors_m.collect::<Vec<_>>());
-        rms_m.push(rms(&errors_m));
-        span_m.push(span(&errors_m));
+        let errors_m: Vec<f64> = errors_m.collect();
+        let about_mean_m = without_mean(&errors_m);
+        rms_m.push(rms(&about_mean_m));
+        span_m.push(span(&about_mean_m));
         points.extend(places_m.into_iter().zip(errors_m));
     }
+    // A run's own mean depends on where it began: for the picture the mean of all is taken away.
+    let all = mean(&points.iter().map(|point| point.1).collect::<Vec<_>>());
+    points.iter_mut().for_each(|point| point.1 -= all);
     points.sort_by(|one, other| one.0.total_cmp(&other.0));
     Runs { points, rms_m: Spread::of(&rms_m), span_m: Spread::of(&span_m) }
 }
