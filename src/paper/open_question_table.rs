@@ -48,7 +48,7 @@ pub fn table(methods: &[Method; 2]) -> Table {
              encoder's zero.",
             "It shows that falloff within a set is of the right size: with a ratio near 1 it makes up for the missing half of the four frames' RMS. \
              Together with a random error of some 10 mm, which the WDFT needs under every hypothesis here, \u{3c7}\u{b2} is about its freedom.",
-            "It does not prove it. Falloff alone, without a random error, is not a good fit; two square waves would have a ratio of 1.23, outside the interval, \
+            "It does not prove it. Falloff alone, without a random error, is not a good fit; two square waves would have a ratio of 1.23, just outside an interval that is too narrow, \
              and pixels of less contrast a larger one; frames that are farther apart fit no worse, though 125 ms a measurement speak against it. Four numbers \
              of one velocity cannot tell causes apart. What is the same when the target stands (droop, lag, non-linearity) is mostly gone with \
              the calibration, so that it cannot take the falloff's place.",

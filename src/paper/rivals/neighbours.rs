@@ -28,7 +28,7 @@ pub fn at_once_rms_m(method: &Method, conditions: Conditions) -> f64 {
     rms(&without_mean(&(0..OFFSETS).map(error).collect::<Vec<_>>()))
 }
 
-/// RMS error, m, of a still target whose reflectivity differs from pixel to pixel by [`GRAIN`], over all phases.
+/// RMS error, m, of a still target whose reflectivity differs from pixel to pixel by a standard deviation of 3 %, over all phases.
 pub fn texture_rms_m(method: &Method) -> f64 {
     let camera = Camera::new(Conditions::sinusoidal());
     let mut draws = Draws::of(SEED, STREAM);
