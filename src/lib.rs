@@ -33,6 +33,7 @@
 //! | [`algorithms`] | phase algorithms: characteristic polynomials, verdicts, sensitivities, the design of rows |
 //! | [`physics`] | the forward simulator of raw frames, and its effects, one file each |
 //! | [`bench`](mod@bench) | recordings and the simulator together: campaigns, what each effect does to perfect data |
+//! | [`paper`] | the camera's paper computed again: each figure and table, the open question, the rivals |
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
@@ -57,6 +58,7 @@ pub mod frames;
 pub mod hdl;
 pub mod model;
 pub mod package;
+pub mod paper;
 pub mod physics;
 pub mod problem;
 pub mod proof;

@@ -8,6 +8,7 @@ mod demo;
 mod explain;
 mod generate;
 mod mutate;
+mod paper;
 mod print;
 mod process;
 mod progress;
@@ -44,6 +45,7 @@ enum Command {
     Scene(scene::Scene),
     Simulate(Box<simulate::Simulate>),
     Atlas(atlas::Atlas),
+    Paper(paper::Paper),
     Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
     Synth(synth::Synth),
@@ -65,6 +67,7 @@ impl Arguments {
             Command::Scene(command) => command.run(),
             Command::Simulate(command) => command.run(),
             Command::Atlas(command) => command.run(),
+            Command::Paper(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Synth(command) => command.run(),

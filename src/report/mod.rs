@@ -6,6 +6,7 @@ mod atlas;
 mod colour_map;
 mod error_maps;
 mod explanation;
+mod paper;
 mod pixel_image;
 mod resources;
 mod scale;
@@ -21,6 +22,7 @@ pub use atlas::{atlas_index, effect_picture};
 pub use colour_map::ColourMap;
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
 pub use explanation::{Section, explanation, sections};
+pub use paper::{figure_csv, figure_picture, markdown_rows, markdown_table, quantities_table, table_csv};
 pub use resources::resources;
 pub use svg::escaped;
 pub use sweep::{

@@ -1,0 +1,30 @@
+//! What the paper names beside its own algorithm: calibrations against the linearity error, other ways of taking frames against motion.
+
+mod b_spline;
+mod binning;
+mod calibration;
+mod frequency;
+mod least_squares;
+mod look_up;
+mod neighbours;
+mod polynomial;
+mod sinusoid;
+mod step_order;
+
+pub use calibration::{CALIBRATIONS, Calibration, calibrated_rms_m};
+pub use frequency::waveform_at;
+pub use neighbours::{at_once_rms_m, texture_rms_m};
+pub use step_order::{ordered_rms_m, orders};
+
+use super::camera::Method;
+use super::figure::Table;
+use crate::problem::Result;
+
+/// Both tables.
+///
+/// # Errors
+/// As [`Method::of`].
+pub fn tables() -> Result<[Table; 2]> {
+    let methods = Method::both()?;
+    Ok([calibration::table(&methods), step_order::table(&methods)])
+}
