@@ -2,7 +2,7 @@
 
 use super::columns::{Frame, OWN, Tangents};
 use super::data::Data;
-use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
+use nalgebra::{DMatrix, DVector, Matrix4, Matrix4xX, Vector4};
 use rayon::prelude::*;
 
 /// Sums over all samples, weighted by the noise.
@@ -13,7 +13,7 @@ pub struct Gram {
     /// A pixel's own numbers: J' W J.
     own: Vec<Matrix4<f64>>,
     /// Own numbers against columns and residual, `[pixel]`: 4 x (columns + 1).
-    mixed: Vec<DMatrix<f64>>,
+    mixed: Vec<Matrix4xX<f64>>,
     /// A set's position against columns and residual, and against itself.
     position: Vec<(DVector<f64>, f64)>,
     /// A set's position against the pixels' own numbers.
@@ -48,7 +48,7 @@ impl Gram {
         Self {
             full: DMatrix::zeros(columns + 1, columns + 1),
             own: vec![Matrix4::zeros(); pixels],
-            mixed: vec![DMatrix::zeros(OWN, columns + 1); pixels],
+            mixed: vec![Matrix4xX::zeros(columns + 1); pixels],
             position: vec![(DVector::zeros(columns + 1), 0.0); sets],
             position_own: vec![Vec::new(); sets],
             chi2: 0.0,
@@ -156,7 +156,7 @@ impl Gram {
     pub fn project(&self, jitter_m2: Option<f64>) -> Projected {
         let size = self.full.nrows();
         let inverses: Vec<Matrix4<f64>> = self.own.iter().map(inverse).collect();
-        let solved: Vec<DMatrix<f64>> =
+        let solved: Vec<Matrix4xX<f64>> =
             self.mixed.iter().zip(&inverses).map(|(mixed, inverse)| inverse * mixed).collect();
         let mut full = self.full.clone();
         for (mixed, solved) in self.mixed.iter().zip(&solved) {
@@ -225,14 +225,14 @@ pub struct Projected {
     /// Chi squared after the projection.
     pub chi2: f64,
     /// Change of the pixels' own numbers a unit of each column, and, last, by the residual.
-    solved: Vec<DMatrix<f64>>,
+    solved: Vec<Matrix4xX<f64>>,
 }
 
 impl Projected {
     /// How the pixels' own numbers move with a step `theta` of the columns.
     pub fn own(&self, theta: &DVector<f64>) -> Vec<Vector4<f64>> {
         let last = theta.len();
-        let step = |solved: &DMatrix<f64>| {
+        let step = |solved: &Matrix4xX<f64>| {
             let mut own = Vector4::from_iterator(solved.column(last).iter().copied());
             for (column, value) in theta.iter().enumerate() {
                 own -= *value * Vector4::from_iterator(solved.column(column).iter().copied());
