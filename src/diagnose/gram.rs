@@ -206,8 +206,8 @@ fn jitter(sets: &[(f64, f64)]) -> f64 {
         };
         sets.iter().map(term).sum()
     };
-    // From a micrometre to a centimetre.
-    let variances = (0..=80).map(|step| 10f64.powf(-6.0 + 4.0 * f64::from(step) / 80.0).powi(2));
+    // From a micrometre to half a millimetre: more is no encoder's noise, but something that must be named.
+    let variances = (0..=60).map(|step| (1e-6 * 500f64.powf(f64::from(step) / 60.0)).powi(2));
     variances.fold((0.0, 0.0), |best, v| if evidence(v) > best.1 { (v, evidence(v)) } else { best }).0
 }
 
