@@ -64,7 +64,12 @@ fn own_pixels(pixels: &Pixels, number: usize) -> (Pixels, f64) {
 impl<'a> Tangents<'a> {
     /// The model of `data` with `pixels` and the effects `fitted`; columns for every free number of `fitted` and of `tried`, in this
     /// order.
-    pub fn new(data: &'a Data, pixels: &Arc<Pixels>, fitted: &[Piece], tried: &[Piece]) -> (Self, Vec<Column>) {
+    pub fn new(
+        data: &'a Data,
+        pixels: &Arc<Pixels>,
+        fitted: &[Piece],
+        tried: &[Piece],
+    ) -> (Self, Vec<Column>) {
         let mut columns = Vec::new();
         for (number, piece) in fitted.iter().chain(tried).enumerate() {
             columns.extend(piece.free.iter().map(|&parameter| Column { piece: number, parameter }));
@@ -95,14 +100,19 @@ impl<'a> Tangents<'a> {
                     (values, step)
                 };
                 if is_fitted {
-                    let place = fitted[..column.piece].iter().filter(|piece| piece.takes.contains(&take)).count();
+                    let place =
+                        fitted[..column.piece].iter().filter(|piece| piece.takes.contains(&take)).count();
                     changed[place].values = values;
                 } else {
                     changed.push(Active { effect: piece.effect, values });
                 }
                 Some((with(Arc::clone(pixels), changed), step))
             };
-            Chains { base: with(Arc::clone(pixels), effects.clone()), own, columns: columns.iter().map(of).collect() }
+            Chains {
+                base: with(Arc::clone(pixels), effects.clone()),
+                own,
+                columns: columns.iter().map(of).collect(),
+            }
         });
         let chains = chains.collect();
         (Self { data, chains, count: columns.len() }, columns)

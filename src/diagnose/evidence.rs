@@ -54,7 +54,8 @@ impl<'a> Evidence<'a> {
         candidates: usize,
     ) -> Self {
         let white = |block: &Block| {
-            let seen = |&&column: &&usize| matrix[(column, column)] > VISIBLE * raw[column] && raw[column] > 0.0;
+            let seen =
+                |&&column: &&usize| matrix[(column, column)] > VISIBLE * raw[column] && raw[column] > 0.0;
             let columns: Vec<usize> = block.columns.iter().filter(seen).copied().collect();
             if columns.is_empty() {
                 return None;
@@ -119,7 +120,8 @@ impl<'a> Evidence<'a> {
             let theta = cholesky.solve(&score);
             let inverse = cholesky.inverse();
             let ln_determinant = 2.0 * cholesky.l().diagonal().iter().map(|d| d.ln()).sum::<f64>();
-            let ln_prior: f64 = of.iter().zip(&prior).map(|(range, prior)| range.len() as f64 * prior.ln()).sum();
+            let ln_prior: f64 =
+                of.iter().zip(&prior).map(|(range, prior)| range.len() as f64 * prior.ln()).sum();
             ln_bayes = 0.5 * score.dot(&theta) - 0.5 * (ln_determinant + ln_prior);
             for (range, prior) in of.iter().zip(&mut prior) {
                 let square: f64 = range.clone().map(|n| theta[n] * theta[n] + inverse[(n, n)]).sum();
@@ -138,7 +140,8 @@ impl<'a> Evidence<'a> {
         let mut models: Vec<Model> = seen.iter().map(|&block| model(vec![block])).collect();
         // Of each candidate the best variant, and the best beside each other one.
         for (place, &one) in seen.iter().enumerate() {
-            let others = seen[place + 1..].iter().filter(|&&o| self.blocks[o].candidate != self.blocks[one].candidate);
+            let others =
+                seen[place + 1..].iter().filter(|&&o| self.blocks[o].candidate != self.blocks[one].candidate);
             models.extend(others.map(|&other| model(vec![one, other])));
         }
         models.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));

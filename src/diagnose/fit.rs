@@ -65,8 +65,12 @@ fn start(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
         chain(&data.camera, Arc::new(pixels(data, numbers)), Vec::new())
     };
     let quarter = std::f64::consts::FRAC_PI_2;
-    let basis: [Chain; OWN] =
-        [unit(1.0, 0.0, 0.0, 0.0), unit(1.0, quarter, 0.0, 0.0), unit(0.0, 0.0, 1.0, 0.0), unit(0.0, 0.0, 0.0, 1.0)];
+    let basis: [Chain; OWN] = [
+        unit(1.0, 0.0, 0.0, 0.0),
+        unit(1.0, quarter, 0.0, 0.0),
+        unit(0.0, 0.0, 1.0, 0.0),
+        unit(0.0, 0.0, 0.0, 1.0),
+    ];
     let mut normal = vec![(Matrix4::<f64>::zeros(), Vector4::<f64>::zeros()); count];
     let mut number = 0;
     for take in &data.takes {
@@ -117,7 +121,8 @@ pub fn fit(
     for piece in &mut pieces {
         // Shapes are fitted where there is something to fit.
         for (number, parameter) in piece.effect.parameters.iter().enumerate().filter(|(_, p)| p.is_shape()) {
-            let there = piece.effect.parameters.iter().zip(&piece.values).any(|(p, &v)| !p.is_shape() && v != p.off);
+            let there =
+                piece.effect.parameters.iter().zip(&piece.values).any(|(p, &v)| !p.is_shape() && v != p.off);
             if there && parameter.shapes.len() > 1 && !piece.free.contains(&number) {
                 piece.free.push(number);
             }
@@ -167,9 +172,11 @@ fn step(projected: &Projected) -> (DVector<f64>, Vec<f64>) {
     let scaled = projected.matrix.map_with_location(|row, column, value| value * scale[row] * scale[column]);
     let eigen = scaled.symmetric_eigen();
     let kept = eigen.eigenvalues.map(|value| if value > 1e-6 { value.recip() } else { 0.0 });
-    let inverse = &eigen.eigenvectors * nalgebra::DMatrix::from_diagonal(&kept) * eigen.eigenvectors.transpose();
+    let inverse =
+        &eigen.eigenvectors * nalgebra::DMatrix::from_diagonal(&kept) * eigen.eigenvectors.transpose();
     let theta = (&inverse * projected.vector.component_mul(&scale)).component_mul(&scale);
-    let sigma = (0..size).map(|c| if scale[c] > 0.0 { inverse[(c, c)].max(0.0).sqrt() * scale[c] } else { f64::INFINITY });
+    let sigma = (0..size)
+        .map(|c| if scale[c] > 0.0 { inverse[(c, c)].max(0.0).sqrt() * scale[c] } else { f64::INFINITY });
     (theta, sigma.collect())
 }
 

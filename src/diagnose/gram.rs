@@ -75,14 +75,20 @@ impl Gram {
     }
 
     /// The pass over all sets of which `counts` (number of the set, over all recordings) is true.
-    pub fn of(data: &Data, tangents: &Tangents, noise: Noise, counts: &(dyn Fn(usize) -> bool + Sync)) -> Self {
+    pub fn of(
+        data: &Data,
+        tangents: &Tangents,
+        noise: Noise,
+        counts: &(dyn Fn(usize) -> bool + Sync),
+    ) -> Self {
         let mut sets = Vec::new();
         for (take, recording) in data.takes.iter().enumerate() {
             sets.extend((0..recording.moments.len() / recording.frames).map(|set| (take, set)));
         }
         let (pixels, columns, count) = (data.pixels(), tangents.count(), sets.len());
         let chunk = sets.len().div_ceil(2 * rayon::current_num_threads()).max(1);
-        let indexed: Vec<(usize, (usize, usize))> = sets.into_iter().enumerate().filter(|&(n, _)| counts(n)).collect();
+        let indexed: Vec<(usize, (usize, usize))> =
+            sets.into_iter().enumerate().filter(|&(n, _)| counts(n)).collect();
         indexed
             .par_chunks(chunk)
             .map(|chunk| {
@@ -131,7 +137,8 @@ impl Gram {
             }
             // A background never moves: its constant light is ambient light.
             let constant = if data.target[pixel] { frame.own[2][pixel] } else { 0.0 };
-            let own = root * Vector4::new(frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]);
+            let own =
+                root * Vector4::new(frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]);
             self.own[pixel] += own * own.transpose();
             let mixed = &mut self.mixed[pixel];
             for column in 0..=count {
@@ -190,7 +197,8 @@ impl Gram {
 
 /// Pseudo-inverse: what a pixel's own numbers are not told apart by stays where it is.
 fn inverse(own: &Matrix4<f64>) -> Matrix4<f64> {
-    let scale = Vector4::from_fn(|row, _| if own[(row, row)] > 0.0 { own[(row, row)].sqrt().recip() } else { 0.0 });
+    let scale =
+        Vector4::from_fn(|row, _| if own[(row, row)] > 0.0 { own[(row, row)].sqrt().recip() } else { 0.0 });
     let scaled = Matrix4::from_fn(|row, column| own[(row, column)] * scale[row] * scale[column]);
     let eigen = scaled.symmetric_eigen();
     let kept = eigen.eigenvalues.map(|value| if value > 1e-9 { value.recip() } else { 0.0 });

@@ -38,10 +38,8 @@ pub struct Candidate {
 const BY_TAKE: [&str; 1] = ["ambient_flicker"];
 const BY_SCHEME: [&str; 2] = ["phase_step_errors", "frame_gain"];
 /// Effects that start with a corner, and the values at which they are tried.
-const FINITE: [(&str, &[f64]); 2] = [
-    ("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8]),
-    ("fixed_point", &[1.0, 2.0, 3.0, 4.0]),
-];
+const FINITE: [(&str, &[f64]); 2] =
+    [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8]), ("fixed_point", &[1.0, 2.0, 3.0, 4.0])];
 
 /// All candidates that `data` could need: those of the registry that its camera does not include.
 pub fn candidates(data: &Data) -> Vec<Candidate> {
@@ -90,7 +88,8 @@ fn pieces(effect: &'static Effect, values: &[f64], data: &Data) -> Vec<Piece> {
         let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
         schemes.sort_unstable();
         schemes.dedup();
-        let of = |frames: usize| all.iter().copied().filter(|&take| data.takes[take].frames == frames).collect();
+        let of =
+            |frames: usize| all.iter().copied().filter(|&take| data.takes[take].frames == frames).collect();
         schemes.into_iter().map(of).collect()
     } else {
         vec![all]

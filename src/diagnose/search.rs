@@ -12,6 +12,8 @@ pub const THRESHOLD: f64 = 1.0;
 /// A rival within so many nats is possible too.
 const RIVAL_NATS: f64 = 3.0;
 const MOST_EFFECTS: usize = 4;
+/// Beyond so much evidence (nats) the tangents at the baseline need not hold at the fit.
+const STRONG_NATS: f64 = 30.0;
 
 /// An effect that is asserted.
 #[derive(Debug, Clone)]
@@ -88,13 +90,15 @@ fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter:
             projected.matrix.ger(-pivot.recip(), &row, &row, 1.0);
         }
     }
-    let evidence = Evidence::new(&projected.matrix, &projected.vector, &projected.raw, &blocks, candidates.len());
+    let evidence =
+        Evidence::new(&projected.matrix, &projected.vector, &projected.raw, &blocks, candidates.len());
     let scores: Vec<_> = (0..blocks.len()).map(|block| evidence.score(block)).collect();
     let unseen = |number: &usize| {
         let mut of = blocks.iter().zip(&scores).filter(|(block, _)| block.candidate == *number).peekable();
         of.peek().is_some() && of.all(|(_, score)| score.is_none())
     };
-    let invisible = (0..candidates.len()).filter(unseen).map(|number| candidates[number].effect.name).collect();
+    let invisible =
+        (0..candidates.len()).filter(unseen).map(|number| candidates[number].effect.name).collect();
     let mut detectable: Vec<(&'static str, usize, f64)> = Vec::new();
     for (column, &(number, parameter)) in parameters.iter().enumerate().filter(|(_, p)| p.0 != usize::MAX) {
         let information = projected.matrix[(column, column)];
@@ -144,6 +148,12 @@ pub fn search(data: &Data, noise: Noise) -> Found {
             .filter(|model| model.ln_bayes > best.ln_bayes - RIVAL_NATS)
             .min_by_key(|model| model.blocks.len())
             .unwrap_or(best);
+        // Of a pair that has one strong member, that one first: the tangents of the other hold only when it is fitted.
+        let strongest =
+            best.blocks.iter().copied().max_by(|&a, &b| pass.singles[a].total_cmp(&pass.singles[b]));
+        let strong = strongest.filter(|&block| best.blocks.len() > 1 && pass.singles[block] > STRONG_NATS);
+        let strong = strong.map(|block| Model { blocks: vec![block], ln_bayes: pass.singles[block] });
+        let best = strong.as_ref().unwrap_or(best);
         let names = pass.names(best, &candidates);
         if names.len() + named.len() > MOST_EFFECTS {
             break;
