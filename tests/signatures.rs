@@ -266,7 +266,7 @@ fn phase_step_scale(make: Make, findings: &mut Findings) {
 }
 
 fn phase_step_errors(make: Make, findings: &mut Findings) {
-    let four = Experiment::four().cycles(make("phase_step_errors", &[("frame_1_rad", 0.01)]));
+    let four = Experiment::four().cycles(make("phase_step_errors", &[("setting_1_rad", 0.01)]));
     findings.about("mean", four.mean(), -0.0025, 0.02);
     findings.about("two cycles", four.cos(2), -0.0025, 0.02);
     findings.below("the rest", four.rest(&[2]), 5e-5);
@@ -407,8 +407,10 @@ fn electrical_crosstalk(make: Make, findings: &mut Findings) {
 
 fn multipath(make: Make, findings: &mut Findings) {
     let longer_by_m = unambiguous_range_m(30e6) / 6.0;
-    let falloff = (1.0 + longer_by_m).powi(-2);
-    let settings = [("relative_amplitude", 0.1 / falloff), ("longer_by_m", longer_by_m)];
+    // Out 1 m, back by the mirror image of a wall.
+    let back_m = 1.0 + 2.0 * longer_by_m;
+    let wall_m = (back_m * back_m - 1.0).sqrt() / 2.0;
+    let settings = [("relative_amplitude", 0.1 * back_m), ("wall_distance_m", wall_m)];
     for name in ["four_frame", "wdft"] {
         let e = Experiment::of(name).cycles(make("multipath_interference", &settings));
         // 10 % at 60°: arg(1 + 0.1 exp(iπ/3)).

@@ -39,6 +39,8 @@ pub struct Frame {
     pub base: Vec<f64>,
     /// Tangents by the pixel's own numbers, `[number][pixel]`.
     pub own: [Vec<f64>; OWN],
+    /// Ambient light, DN.
+    pub ambient: Vec<f64>,
     /// By the target's position, DN a metre.
     pub position: Vec<f64>,
     /// Tangents of the columns; empty where a column does not act in this recording.
@@ -47,6 +49,8 @@ pub struct Frame {
 
 /// Step of the numerical tangents, relative to a number's usual size.
 const STEP: f64 = 1e-3;
+/// The same for shapes: a frequency may be multiplied by a long time.
+const SHAPE_STEP: f64 = 1e-6;
 const POSITION_STEP_M: f64 = 1e-6;
 
 fn own_pixels(pixels: &Pixels, number: usize) -> (Pixels, f64) {
@@ -95,7 +99,8 @@ impl<'a> Tangents<'a> {
                     let mut values = piece.values.clone();
                     // Away from a bound.
                     let towards = if values[column.parameter] >= parameter.bounds.1 { -1.0 } else { 1.0 };
-                    let step = towards * STEP * parameter.typical;
+                    let relative = if parameter.is_shape() { SHAPE_STEP } else { STEP };
+                    let step = towards * relative * parameter.typical;
                     values[column.parameter] += step;
                     (values, step)
                 };
@@ -128,6 +133,7 @@ impl<'a> Tangents<'a> {
             let before_dn = chain.looks_back().then(|| chain.arrive(before, Memory::default()));
             chain.expose(moment, Memory { before_dn, ..Memory::default() }).signal_dn
         };
+        let ambient = chains.base.pixels.ambient_dn.clone();
         let base = expose(&chains.base, moment);
         let difference = |signal: Vec<f64>, step: f64| -> Vec<f64> {
             signal.iter().zip(&base).map(|(changed, base)| (changed - base) / step).collect()
@@ -140,7 +146,7 @@ impl<'a> Tangents<'a> {
             None => Vec::new(),
         });
         let columns = columns.collect();
-        Frame { base, own, position, columns }
+        Frame { base, own, ambient, position, columns }
     }
 
     /// Number of columns.

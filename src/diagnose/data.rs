@@ -72,6 +72,14 @@ impl Data {
         Ok(Self { camera, takes, target })
     }
 
+    /// All sets: recording, and number of the set within it.
+    pub fn sets(&self) -> Vec<(usize, usize)> {
+        let of = |(take, recording): (usize, &Take)| {
+            (0..recording.moments.len() / recording.frames).map(move |set| (take, set))
+        };
+        self.takes.iter().enumerate().flat_map(of).collect()
+    }
+
     /// The sensor's pixels.
     pub fn geometry(&self) -> Geometry {
         self.camera.geometry

@@ -10,7 +10,7 @@ pub struct Block {
     /// Its variant.
     pub variant: usize,
     /// Variants that it has.
-    pub variants: usize,
+    pub variants: f64,
     /// Columns.
     pub columns: Vec<usize>,
 }
@@ -41,21 +41,30 @@ pub struct Model {
 
 /// Of a column's information less than this is left by the pixels' own numbers: it cannot be seen.
 pub const VISIBLE: f64 = 1e-6;
+/// At its greatest value a column must change the frames by so many standard deviations of the whole campaign.
+const LEAST_RHO: f64 = 1.0;
 const LEAST_EIGENVALUE: f64 = 1e-4;
 const LEAST_PRIOR: f64 = 4.0;
 
+/// Whether `information` that is left of `raw` shows a number that reaches up to `reach`.
+pub fn is_seen(information: f64, raw: f64, reach: f64) -> bool {
+    information > VISIBLE * raw && information.sqrt() * reach > LEAST_RHO
+}
+
 impl<'a> Evidence<'a> {
-    /// Of `matrix` and `vector`, with `raw` the information before the projection.
+    /// Of `matrix` and `vector`, with `raw` the information before the projection, and `reach` the greatest value that a column's number
+    /// may take.
     pub fn new(
         matrix: &'a DMatrix<f64>,
         vector: &'a DVector<f64>,
         raw: &DVector<f64>,
+        reach: &dyn Fn(usize) -> f64,
         blocks: &'a [Block],
         candidates: usize,
     ) -> Self {
         let white = |block: &Block| {
             let seen =
-                |&&column: &&usize| matrix[(column, column)] > VISIBLE * raw[column] && raw[column] > 0.0;
+                |&&column: &&usize| is_seen(matrix[(column, column)], raw[column], reach(column));
             let columns: Vec<usize> = block.columns.iter().filter(seen).copied().collect();
             if columns.is_empty() {
                 return None;
@@ -128,7 +137,7 @@ impl<'a> Evidence<'a> {
                 *prior = (square / range.len() as f64).max(LEAST_PRIOR);
             }
         }
-        let variants: f64 = chosen.iter().map(|&block| (self.blocks[block].variants as f64).ln()).sum();
+        let variants: f64 = chosen.iter().map(|&block| self.blocks[block].variants.max(1.0).ln()).sum();
         let effects = chosen.len() as f64;
         ln_bayes - effects - effects * (2.0 * self.candidates).ln() - variants
     }

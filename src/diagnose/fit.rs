@@ -1,8 +1,9 @@
 //! The fit of the full forward model: the pixels' own numbers and the effects' parameters together, by Gauss and Newton.
 
-use super::columns::{Column, OWN, Tangents};
+use super::columns::{Column, Frame, OWN, Tangents};
 use super::data::Data;
-use super::gram::{Gram, Noise, Projected};
+use super::gram::{Gram, Noise, Projected, Whitened};
+use super::lines::Series;
 use super::pieces::Piece;
 use crate::bench::chain;
 use crate::physics::{Chain, Memory, Pixels};
@@ -26,6 +27,8 @@ pub struct Fit {
     pub samples: usize,
     /// Variance of the encoder's reading, m².
     pub jitter_m2: f64,
+    /// What frames and sets still share.
+    pub series: Series,
 }
 
 /// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
@@ -118,20 +121,17 @@ pub fn fit(
 ) -> Fit {
     let mut pixels = from.map_or_else(|| start(data, counts), |fit| Arc::clone(&fit.pixels));
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
-    for piece in &mut pieces {
-        // Shapes are fitted where there is something to fit.
-        for (number, parameter) in piece.effect.parameters.iter().enumerate().filter(|(_, p)| p.is_shape()) {
-            let there =
-                piece.effect.parameters.iter().zip(&piece.values).any(|(p, &v)| !p.is_shape() && v != p.off);
-            if there && parameter.shapes.len() > 1 && !piece.free.contains(&number) {
-                piece.free.push(number);
-            }
-        }
-    }
-    let mut iterations = if pieces.is_empty() { ITERATIONS } else { ITERATIONS + 1 };
+    free_shapes(&mut pieces);
+    let mut iterations = if pieces.is_empty() { ITERATIONS } else { ITERATIONS + 2 };
     loop {
         let (tangents, columns) = Tangents::new(data, &pixels, &pieces, &[]);
-        let gram = Gram::of(data, &tangents, noise, counts);
+        let fill = |_: usize, _: usize, _: &Frame| vec![Vec::new()];
+        let visit = |series: Series, whitened: &Whitened| match iterations {
+            0 => series.with(data, whitened),
+            _ => series,
+        };
+        let (gram, series) =
+            Gram::with_blocks(data, &tangents, noise, counts, &[0], &fill, &visit, &Series::and);
         let projected = gram.project(None);
         let (theta, sigma) = step(&projected);
         if iterations == 0 {
@@ -143,6 +143,7 @@ pub fn fit(
                 chi2: projected.chi2,
                 samples: gram.samples,
                 jitter_m2: projected.jitter_m2,
+                series,
             };
         }
         iterations -= 1;
@@ -155,6 +156,20 @@ pub fn fit(
             // A shape moves by a third of itself at most: its tangent holds nearby.
             let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
             *value = (*value + step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
+        }
+        free_shapes(&mut pieces);
+    }
+}
+
+/// Shapes are fitted where there is something that has one.
+fn free_shapes(pieces: &mut [Piece]) {
+    for piece in pieces {
+        let parameters = piece.effect.parameters;
+        let there = parameters.iter().zip(&piece.values).any(|(p, &value)| !p.is_shape() && value != p.off);
+        for (number, parameter) in parameters.iter().enumerate() {
+            if there && parameter.is_shape() && !parameter.is_choice && !piece.free.contains(&number) {
+                piece.free.push(number);
+            }
         }
     }
 }

@@ -8,20 +8,48 @@ use rayon::prelude::*;
 /// Sums over all samples, weighted by the noise.
 #[derive(Debug, Clone)]
 pub struct Gram {
-    /// Columns and, last, the residual: G' W G.
-    full: DMatrix<f64>,
     /// A pixel's own numbers: J' W J.
     own: Vec<Matrix4<f64>>,
-    /// Own numbers against columns and residual, `[pixel]`: 4 x (columns + 1).
-    mixed: Vec<Matrix4xX<f64>>,
-    /// A set's position against columns and residual, and against itself.
-    position: Vec<(DVector<f64>, f64)>,
+    /// A set's position against itself.
+    square: Vec<f64>,
     /// A set's position against the pixels' own numbers.
-    position_own: Vec<Vec<Vector4<f64>>>,
+    position_own: Vec<Vec<Vector4<f32>>>,
+    /// Columns that are solved together, each block by itself.
+    blocks: Vec<Block>,
     /// Sum of squares of the whitened residual, and samples.
     pub chi2: f64,
     /// Samples that count.
     pub samples: usize,
+}
+
+/// Columns that are solved together, and, last, the residual.
+#[derive(Debug, Clone)]
+struct Block {
+    /// G' W G.
+    full: DMatrix<f64>,
+    /// The pixels' own numbers against columns and residual, `[pixel]`: 4 x (columns + 1).
+    mixed: Vec<Matrix4xX<f64>>,
+    /// A set's position against columns and residual.
+    position: Vec<DVector<f64>>,
+}
+
+/// What blocks have in a frame: columns by their numbers, where they act.
+pub type Filled = Vec<Vec<(usize, Vec<f64>)>>;
+
+/// One frame, whitened.
+pub struct Whitened<'a> {
+    /// Recording, set (over all recordings) and frame within the recording.
+    pub take: usize,
+    /// Number of the set, over all recordings.
+    pub set: usize,
+    /// Number of the frame within the recording.
+    pub index: usize,
+    /// The model's signal and tangents, not whitened.
+    pub frame: &'a Frame,
+    /// Root of the weight of each pixel; 0 where the sample does not count.
+    pub roots: &'a [f64],
+    /// Residual over the noise.
+    pub residual: &'a [f64],
 }
 
 /// Variance of the noise at a signal, DN².
@@ -31,12 +59,15 @@ pub struct Noise {
     pub floor: f64,
     /// Shot noise, DN² a DN.
     pub slope: f64,
+    /// Noise in proportion to the signal, relative, squared.
+    pub square: f64,
 }
 
 impl Noise {
     /// One over the variance.
     pub fn weight(&self, signal_dn: f64) -> f64 {
-        1.0 / (self.floor + self.slope * signal_dn.max(0.0))
+        let signal_dn = signal_dn.max(0.0);
+        1.0 / (self.floor + signal_dn * (self.slope + signal_dn * self.square))
     }
 }
 
@@ -44,29 +75,37 @@ impl Noise {
 const WINSOR: f64 = 4.0;
 
 impl Gram {
-    fn empty(pixels: usize, columns: usize, sets: usize) -> Self {
-        Self {
+    fn empty(pixels: usize, columns: &[usize], sets: usize) -> Self {
+        let block = |&columns: &usize| Block {
             full: DMatrix::zeros(columns + 1, columns + 1),
-            own: vec![Matrix4::zeros(); pixels],
             mixed: vec![Matrix4xX::zeros(columns + 1); pixels],
-            position: vec![(DVector::zeros(columns + 1), 0.0); sets],
+            position: vec![DVector::zeros(0); sets],
+        };
+        Self {
+            own: vec![Matrix4::zeros(); pixels],
+            square: vec![0.0; sets],
             position_own: vec![Vec::new(); sets],
+            blocks: columns.iter().map(block).collect(),
             chi2: 0.0,
             samples: 0,
         }
     }
 
     fn join(mut self, other: Self) -> Self {
-        self.full += other.full;
         self.own.iter_mut().zip(other.own).for_each(|(a, b)| *a += b);
-        self.mixed.iter_mut().zip(other.mixed).for_each(|(a, b)| *a += b);
-        for (a, b) in self.position.iter_mut().zip(other.position) {
-            a.0 += b.0;
-            a.1 += b.1;
-        }
+        self.square.iter_mut().zip(other.square).for_each(|(a, b)| *a += b);
         for (a, b) in self.position_own.iter_mut().zip(other.position_own) {
             if a.is_empty() {
                 *a = b;
+            }
+        }
+        for (block, other) in self.blocks.iter_mut().zip(other.blocks) {
+            block.full += other.full;
+            block.mixed.iter_mut().zip(other.mixed).for_each(|(a, b)| *a += b);
+            for (a, b) in block.position.iter_mut().zip(other.position) {
+                if a.is_empty() {
+                    *a = b;
+                }
             }
         }
         self.chi2 += other.chi2;
@@ -74,106 +113,169 @@ impl Gram {
         self
     }
 
-    /// The pass over all sets of which `counts` (number of the set, over all recordings) is true.
+    /// The pass over all sets of which `counts` (number of the set, over all recordings) is true, for the columns of `tangents` alone.
     pub fn of(
         data: &Data,
         tangents: &Tangents,
         noise: Noise,
         counts: &(dyn Fn(usize) -> bool + Sync),
     ) -> Self {
-        let mut sets = Vec::new();
-        for (take, recording) in data.takes.iter().enumerate() {
-            sets.extend((0..recording.moments.len() / recording.frames).map(|set| (take, set)));
-        }
-        let (pixels, columns, count) = (data.pixels(), tangents.count(), sets.len());
+        let fill = |_: usize, _: usize, _: &Frame| vec![Vec::new()];
+        let (gram, ()) = Self::with_blocks(data, tangents, noise, counts, &[0], &fill, &|(), _| (), &|(), ()| ());
+        gram
+    }
+
+    /// The same for blocks of columns that each have the columns of `tangents` before their own, of which `fill` gives those that act in
+    /// a frame (recording, frame); `visit` sees every whitened frame besides.
+    #[allow(clippy::too_many_arguments)]
+    pub fn with_blocks<T: Default + Send>(
+        data: &Data,
+        tangents: &Tangents,
+        noise: Noise,
+        counts: &(dyn Fn(usize) -> bool + Sync),
+        columns: &[usize],
+        fill: &(dyn Fn(usize, usize, &Frame) -> Filled + Sync),
+        visit: &(dyn Fn(T, &Whitened) -> T + Sync),
+        merge: &(dyn Fn(T, T) -> T + Sync),
+    ) -> (Self, T) {
+        let sets = data.sets();
+        let columns: Vec<usize> = columns.iter().map(|columns| columns + tangents.count()).collect();
+        let (pixels, count) = (data.pixels(), sets.len());
         let chunk = sets.len().div_ceil(2 * rayon::current_num_threads()).max(1);
         let indexed: Vec<(usize, (usize, usize))> =
             sets.into_iter().enumerate().filter(|&(n, _)| counts(n)).collect();
         indexed
             .par_chunks(chunk)
             .map(|chunk| {
-                let mut sums = Self::empty(pixels, columns, count);
+                let mut sums = Self::empty(pixels, &columns, count);
+                let mut visited = T::default();
                 for &(number, (take, set)) in chunk {
                     sums.position_own[number] = vec![Vector4::zeros(); pixels];
+                    for (block, columns) in sums.blocks.iter_mut().zip(&columns) {
+                        block.position[number] = DVector::zeros(columns + 1);
+                    }
                     let frames = data.takes[take].frames;
                     for index in set * frames..(set + 1) * frames {
-                        sums.add(data, take, index, number, &tangents.frame(take, index), noise);
+                        let frame = tangents.frame(take, index);
+                        let (roots, residual) = sums.whiten(data, take, index, &frame, noise);
+                        let whitened =
+                            Whitened { take, set: number, index, frame: &frame, roots: &roots, residual: &residual };
+                        sums.add(data, &whitened, &fill(take, index, &frame), tangents.count());
+                        visited = visit(visited, &whitened);
                     }
                 }
-                sums
+                (sums, visited)
             })
-            .reduce_with(Self::join)
-            .unwrap_or_else(|| Self::empty(pixels, columns, count))
+            .reduce_with(|(a, x), (b, y)| (a.join(b), merge(x, y)))
+            .unwrap_or_else(|| (Self::empty(pixels, &columns, count), T::default()))
     }
 
-    fn add(&mut self, data: &Data, take: usize, index: usize, set: usize, frame: &Frame, noise: Noise) {
-        let (pixels, count) = (data.pixels(), frame.columns.len());
+    /// Roots of the weights, and the residual times them.
+    fn whiten(
+        &mut self,
+        data: &Data,
+        take: usize,
+        index: usize,
+        frame: &Frame,
+        noise: Noise,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let pixels = data.pixels();
         let signal = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
-        // Rows of one frame, times the root of the weight.
-        let mut rows = DMatrix::<f64>::zeros(pixels, count + 1);
-        let mut roots = vec![0.0; pixels];
+        let (mut roots, mut residuals) = (vec![0.0; pixels], vec![0.0; pixels]);
         for pixel in 0..pixels {
             let measured = f64::from(signal[pixel]);
             if measured.is_nan() {
                 continue;
             }
             let root = noise.weight(frame.base[pixel]).sqrt();
-            roots[pixel] = root;
             let residual = (root * (measured - frame.base[pixel])).clamp(-WINSOR, WINSOR);
-            rows[(pixel, count)] = residual;
+            (roots[pixel], residuals[pixel]) = (root, residual);
             self.chi2 += residual * residual;
             self.samples += 1;
         }
-        for (column, values) in frame.columns.iter().enumerate().filter(|(_, values)| !values.is_empty()) {
-            for pixel in 0..pixels {
-                rows[(pixel, column)] = roots[pixel] * values[pixel];
-            }
-        }
-        self.full.gemm(1.0, &rows.transpose(), &rows, 1.0);
-        for pixel in 0..pixels {
-            let root = roots[pixel];
-            if root == 0.0 {
-                continue;
-            }
-            // A background never moves: its constant light is ambient light.
-            let constant = if data.target[pixel] { frame.own[2][pixel] } else { 0.0 };
-            let own =
-                root * Vector4::new(frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]);
-            self.own[pixel] += own * own.transpose();
-            let mixed = &mut self.mixed[pixel];
-            for column in 0..=count {
-                let value = rows[(pixel, column)];
-                if value != 0.0 {
-                    let mut sums = mixed.fixed_view_mut::<OWN, 1>(0, column);
-                    sums += own * value;
-                }
-            }
-            let position = root * frame.position[pixel];
-            if position != 0.0 {
-                self.position_own[set][pixel] += own * position;
-                self.position[set].1 += position * position;
-            }
-        }
-        let position = DVector::from_fn(pixels, |pixel, _| roots[pixel] * frame.position[pixel]);
-        self.position[set].0.gemv_tr(1.0, &rows, &position, 1.0);
+        (roots, residuals)
     }
 
-    /// Solves everything that the columns do not decide: [`Projected`]. `jitter_m2`: variance of the encoder's reading, set by set; where
-    /// it is not given it is estimated.
+    fn add(&mut self, data: &Data, whitened: &Whitened, filled: &Filled, shared: usize) {
+        let Whitened { frame, roots, residual, set, .. } = *whitened;
+        let pixels = roots.len();
+        let mut own = vec![Vector4::zeros(); pixels];
+        let mut position = vec![0.0; pixels];
+        for pixel in (0..pixels).filter(|&pixel| roots[pixel] > 0.0) {
+            let root = roots[pixel];
+            // A background never moves: its constant light is ambient light.
+            let constant = if data.target[pixel] { frame.own[2][pixel] } else { 0.0 };
+            own[pixel] =
+                root * Vector4::new(frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]);
+            self.own[pixel] += own[pixel] * own[pixel].transpose();
+            position[pixel] = root * frame.position[pixel];
+            if position[pixel] != 0.0 {
+                self.position_own[set][pixel] += (own[pixel] * position[pixel]).cast::<f32>();
+                self.square[set] += position[pixel] * position[pixel];
+            }
+        }
+        let position = DVector::from_vec(position);
+        for (block, filled) in self.blocks.iter_mut().zip(filled) {
+            let last = block.full.nrows() - 1;
+            let mut active: Vec<(usize, &[f64])> = Vec::new();
+            active.extend(frame.columns.iter().enumerate().map(|(n, values)| (n, &values[..])));
+            active.extend(filled.iter().map(|(n, values)| (shared + n, &values[..])));
+            active.retain(|(_, values)| !values.is_empty());
+            // Rows of one frame, times the root of the weight.
+            let mut rows = DMatrix::<f64>::zeros(pixels, active.len() + 1);
+            for (place, (_, values)) in active.iter().enumerate() {
+                rows.column_mut(place).iter_mut().zip(roots).zip(*values).for_each(|((row, root), value)| *row = root * value);
+            }
+            rows.column_mut(active.len()).copy_from_slice(residual);
+            let numbers: Vec<usize> = active.iter().map(|(number, _)| *number).chain([last]).collect();
+            let product = rows.tr_mul(&rows);
+            let along = rows.tr_mul(&position);
+            for (a, &row) in numbers.iter().enumerate() {
+                for (b, &column) in numbers.iter().enumerate() {
+                    block.full[(row, column)] += product[(a, b)];
+                }
+                block.position[set][row] += along[a];
+            }
+            for (a, &column) in numbers.iter().enumerate() {
+                let values = rows.column(a);
+                for (pixel, own) in own.iter().enumerate() {
+                    let value = values[pixel];
+                    if value != 0.0 {
+                        let mut sums = block.mixed[pixel].fixed_view_mut::<OWN, 1>(0, column);
+                        sums += own * value;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Solves everything that the columns of the first block do not decide: [`Projected`]. `jitter_m2`: variance of the encoder's
+    /// reading, set by set; where it is not given it is estimated.
     pub fn project(&self, jitter_m2: Option<f64>) -> Projected {
-        let size = self.full.nrows();
         let inverses: Vec<Matrix4<f64>> = self.own.iter().map(inverse).collect();
+        self.project_block(&self.blocks[0], &inverses, jitter_m2)
+    }
+
+    /// The same for every block.
+    pub fn project_all(&self, jitter_m2: f64) -> Vec<Projected> {
+        let inverses: Vec<Matrix4<f64>> = self.own.iter().map(inverse).collect();
+        self.blocks.par_iter().map(|block| self.project_block(block, &inverses, Some(jitter_m2))).collect()
+    }
+
+    fn project_block(&self, block: &Block, inverses: &[Matrix4<f64>], jitter_m2: Option<f64>) -> Projected {
+        let size = block.full.nrows();
         let solved: Vec<Matrix4xX<f64>> =
-            self.mixed.iter().zip(&inverses).map(|(mixed, inverse)| inverse * mixed).collect();
-        let mut full = self.full.clone();
-        for (mixed, solved) in self.mixed.iter().zip(&solved) {
+            block.mixed.iter().zip(inverses).map(|(mixed, inverse)| inverse * mixed).collect();
+        let mut full = block.full.clone();
+        for (mixed, solved) in block.mixed.iter().zip(&solved) {
             full.gemm_tr(-1.0, mixed, solved, 1.0);
         }
         let mut sets = Vec::new();
-        for ((sums, square), own) in self.position.iter().zip(&self.position_own) {
+        for ((sums, square), own) in block.position.iter().zip(&self.square).zip(&self.position_own) {
             let (mut sums, mut square) = (sums.clone(), *square);
             for (pixel, own) in own.iter().enumerate().filter(|(_, own)| own.norm_squared() > 0.0) {
-                sums.gemv_tr(-1.0, &solved[pixel], own, 1.0);
+                let own = own.cast::<f64>();
+                sums.gemv_tr(-1.0, &solved[pixel], &own, 1.0);
                 square -= own.dot(&(inverses[pixel] * own));
             }
             if square > 0.0 {
@@ -190,7 +292,7 @@ impl Gram {
         }
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();
-        let raw = DVector::from_fn(residual, |column, _| self.full[(column, column)]);
+        let raw = DVector::from_fn(residual, |column, _| block.full[(column, column)]);
         Projected { matrix, vector, raw, jitter_m2, chi2: full[(residual, residual)], solved }
     }
 }
@@ -217,6 +319,21 @@ fn jitter(sets: &[(f64, f64)]) -> f64 {
     // From a micrometre to half a millimetre: more is no encoder's noise, but something that must be named.
     let variances = (0..=60).map(|step| (1e-6 * 500f64.powf(f64::from(step) / 60.0)).powi(2));
     variances.fold((0.0, 0.0), |best, v| if evidence(v) > best.1 { (v, evidence(v)) } else { best }).0
+}
+
+impl Projected {
+    /// Takes the first `count` columns as fitted: what they share with the others is theirs.
+    pub fn give_way(&mut self, count: usize) {
+        for fitted in 0..count {
+            let pivot = self.matrix[(fitted, fitted)];
+            if pivot > 1e-9 * self.raw[fitted] {
+                let row = self.matrix.column(fitted).into_owned();
+                let step = self.vector[fitted] / pivot;
+                self.vector.axpy(-step, &row, 1.0);
+                self.matrix.ger(-pivot.recip(), &row, &row, 1.0);
+            }
+        }
+    }
 }
 
 /// The normal equations of the columns alone.

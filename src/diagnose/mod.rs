@@ -1,21 +1,28 @@
 //! Diagnosis: where recordings and simulation disagree, and which physics was left out.
 
+mod clusters;
 mod columns;
+mod coordinates;
 mod data;
 mod evidence;
 mod fit;
 mod gram;
+mod judge;
+mod lines;
+mod location;
 mod pieces;
 mod search;
 
 pub use data::{Data, Take};
 pub use fit::Fit;
 pub use gram::Noise;
+pub use judge::{Judgement, Place, Verdict, judge};
+pub use location::{Located, Location, locate};
 pub use search::{Found, Named, search};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise.
 pub fn stated_noise(data: &Data) -> Noise {
     let camera = &data.camera;
     let read_dn = camera.read_noise_e / camera.gain_e_per_dn;
-    Noise { floor: read_dn * read_dn + 1.0 / 12.0, slope: camera.gain_e_per_dn.recip() }
+    Noise { floor: read_dn * read_dn + 1.0 / 12.0, slope: camera.gain_e_per_dn.recip(), square: 0.0 }
 }

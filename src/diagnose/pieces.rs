@@ -1,6 +1,7 @@
 //! What may be added to the baseline: effects with values, which of them are fitted, and to which recordings they belong.
 
 use super::data::Data;
+use super::lines::{FLICKER_HZ, Series};
 use crate::physics::{Active, Chance, EFFECTS, Effect};
 
 /// An effect at certain values, in some of the recordings.
@@ -32,6 +33,8 @@ pub struct Candidate {
     pub effect: &'static Effect,
     /// At least one.
     pub variants: Vec<Variant>,
+    /// Shapes that could have been found instead, for a shape that was looked for among many.
+    pub looked: f64,
 }
 
 /// Effects whose values belong to one recording each (their phase starts anew), or to the recordings of one scheme.
@@ -41,8 +44,45 @@ const BY_SCHEME: [&str; 2] = ["phase_step_errors", "frame_gain"];
 const FINITE: [(&str, &[f64]); 2] =
     [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8]), ("fixed_point", &[1.0, 2.0, 3.0, 4.0])];
 
+/// How exactly the forms of effects are known: so much of what they explain may be left.
+const APPROXIMATE: f64 = 0.04;
+const LOOSE: f64 = 0.08;
+const EXACT: f64 = 0.01;
+const TOLERANCES: [(&str, f64); 18] = [
+    ("multipath_interference", APPROXIMATE),
+    ("ambient_drift", APPROXIMATE),
+    ("ambient_flicker", APPROXIMATE),
+    ("illumination_droop", APPROXIMATE),
+    ("illumination_drift", APPROXIMATE),
+    ("phase_drift", APPROXIMATE),
+    ("demodulation_skew", APPROXIMATE),
+    ("intensity_nonlinearity", APPROXIMATE),
+    ("adc_nonlinearity", APPROXIMATE),
+    ("phase_step_errors", APPROXIMATE),
+    ("lens_scatter", LOOSE),
+    ("mixed_pixels", LOOSE),
+    ("saturation", LOOSE),
+    ("image_lag", LOOSE),
+    ("charge_crosstalk", LOOSE),
+    ("intensity_related_phase", LOOSE),
+    ("lateral_motion", LOOSE),
+    ("fixed_point", LOOSE),
+];
+
+/// Share of what the effect called `name` explains that its own form may leave.
+pub fn tolerance(name: &str) -> f64 {
+    TOLERANCES.iter().find(|(known, _)| *known == name).map_or(EXACT, |(_, tolerance)| *tolerance)
+}
+
+/// Effects whose shape is the period of a line: where it is, and among how many it was looked for.
+type LineShape = fn(&Series) -> Option<(f64, f64)>;
+const LINES: [(&str, LineShape); 2] = [
+    ("ambient_flicker", |series| series.in_time(0, FLICKER_HZ).map(|line| (line.frequency, line.looked))),
+    ("encoder_cyclic", |series| series.in_position().map(|line| (line.frequency.recip(), line.looked))),
+];
+
 /// All candidates that `data` could need: those of the registry that its camera does not include.
-pub fn candidates(data: &Data) -> Vec<Candidate> {
+pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
     let included = |effect: &Effect| {
         data.camera.includes(effect.name)
             || effect.name == "axial_motion" && data.camera.includes(crate::recording::AXIAL_MOTION)
@@ -51,11 +91,16 @@ pub fn candidates(data: &Data) -> Vec<Candidate> {
         .iter()
         .copied()
         .filter(|effect| effect.chance == Chance::None && !included(effect))
-        .map(|effect| Candidate { effect, variants: variants(effect, data) })
+        .map(|effect| {
+            let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));
+            let shapes = line.map(|(shape, _)| vec![shape]);
+            let variants = variants(effect, data, shapes.as_deref());
+            Candidate { effect, looked: line.map_or(variants.len() as f64, |(_, looked)| looked), variants }
+        })
         .collect()
 }
 
-fn variants(effect: &'static Effect, data: &Data) -> Vec<Variant> {
+fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<Variant> {
     if let Some((_, values)) = FINITE.iter().find(|(name, _)| *name == effect.name) {
         let piece = |&value: &f64| Piece {
             effect,
@@ -68,7 +113,8 @@ fn variants(effect: &'static Effect, data: &Data) -> Vec<Variant> {
     }
     let shape = effect.parameters.iter().position(|parameter| parameter.is_shape());
     let shapes: &[f64] = shape.map_or(&[0.0], |shape| effect.parameters[shape].shapes);
-    shapes
+    found
+        .unwrap_or(shapes)
         .iter()
         .map(|&value| {
             let mut values = effect.off();
@@ -82,9 +128,16 @@ fn variants(effect: &'static Effect, data: &Data) -> Vec<Variant> {
 
 fn pieces(effect: &'static Effect, values: &[f64], data: &Data) -> Vec<Piece> {
     let all: Vec<usize> = (0..data.takes.len()).collect();
+    // A phase shifter that has settings of its own has the same in all recordings.
+    let by_frame = BY_SCHEME.contains(&effect.name)
+        && effect
+            .parameters
+            .iter()
+            .zip(values)
+            .all(|(parameter, &value)| !parameter.is_choice || value == 0.0);
     let groups: Vec<Vec<usize>> = if BY_TAKE.contains(&effect.name) {
         all.iter().map(|&take| vec![take]).collect()
-    } else if BY_SCHEME.contains(&effect.name) {
+    } else if by_frame {
         let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
         schemes.sort_unstable();
         schemes.dedup();
@@ -101,7 +154,7 @@ fn pieces(effect: &'static Effect, values: &[f64], data: &Data) -> Vec<Piece> {
         .map(|takes| {
             let frames = takes.iter().map(|&take| data.takes[take].frames).max().unwrap_or(0);
             // A parameter of a frame that there is not.
-            let there = |&number: &usize| !BY_SCHEME.contains(&effect.name) || number < frames;
+            let there = |&number: &usize| !by_frame || number < frames;
             let free = strengths.iter().copied().filter(there).collect();
             Piece { effect, values: values.to_vec(), free, takes, finite: false }
         })

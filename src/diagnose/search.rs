@@ -2,10 +2,10 @@
 
 use super::columns::Tangents;
 use super::data::Data;
-use super::evidence::{Block, Evidence, Model};
+use super::evidence::{Block, Evidence, Model, is_seen};
 use super::fit::{Fit, fit};
 use super::gram::{Gram, Noise};
-use super::pieces::{Candidate, Piece, candidates};
+use super::pieces::{Candidate, Piece, candidates, tolerance};
 
 /// Less evidence than this (nats) asserts nothing.
 pub const THRESHOLD: f64 = 1.0;
@@ -45,6 +45,7 @@ pub struct Found {
     pub alone: Vec<(&'static str, f64, usize, f64)>,
 }
 
+#[derive(Debug, Clone, Default)]
 struct Pass {
     models: Vec<Model>,
     blocks: Vec<Block>,
@@ -74,24 +75,25 @@ fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter:
                 }
                 tried.push(piece.clone());
             }
-            blocks.push(Block { candidate: number, variant, variants: candidate.variants.len(), columns });
+            blocks.push(Block { candidate: number, variant, variants: candidate.looked, columns });
         }
     }
     let (tangents, _) = Tangents::new(data, &base.pixels, &base.pieces, &tried);
     let gram = Gram::of(data, &tangents, noise, &|_| true);
     let mut projected = gram.project(jitter);
-    // What is fitted takes its share first.
-    for fitted in 0..base.columns.len() {
-        let pivot = projected.matrix[(fitted, fitted)];
-        if pivot > 1e-9 * projected.raw[fitted] {
-            let row = projected.matrix.column(fitted).into_owned();
-            let step = projected.vector[fitted] / pivot;
-            projected.vector.axpy(-step, &row, 1.0);
-            projected.matrix.ger(-pivot.recip(), &row, &row, 1.0);
-        }
-    }
-    let evidence =
-        Evidence::new(&projected.matrix, &projected.vector, &projected.raw, &blocks, candidates.len());
+    projected.give_way(base.columns.len());
+    let reach = |column: usize| {
+        let (number, parameter) = parameters[column];
+        candidates.get(number).map_or(f64::INFINITY, |candidate| candidate.effect.parameters[parameter].reach())
+    };
+    let evidence = Evidence::new(
+        &projected.matrix,
+        &projected.vector,
+        &projected.raw,
+        &reach,
+        &blocks,
+        candidates.len(),
+    );
     let scores: Vec<_> = (0..blocks.len()).map(|block| evidence.score(block)).collect();
     let unseen = |number: &usize| {
         let mut of = blocks.iter().zip(&scores).filter(|(block, _)| block.candidate == *number).peekable();
@@ -102,7 +104,7 @@ fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter:
     let mut detectable: Vec<(&'static str, usize, f64)> = Vec::new();
     for (column, &(number, parameter)) in parameters.iter().enumerate().filter(|(_, p)| p.0 != usize::MAX) {
         let information = projected.matrix[(column, column)];
-        if information > super::evidence::VISIBLE * projected.raw[column] {
+        if is_seen(information, projected.raw[column], reach(column)) {
             let (name, value) = (candidates[number].effect.name, 5.0 / information.sqrt());
             match detectable.iter_mut().find(|row| row.0 == name && row.1 == parameter) {
                 Some(row) => row.2 = row.2.min(value),
@@ -120,44 +122,31 @@ impl Pass {
     }
 }
 
+/// What stands of the named effects' evidence may come from their own form: this much of what they explain is theirs.
+fn tolerated(named: &[Named]) -> f64 {
+    named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
+}
+
 /// Searches `data`.
 pub fn search(data: &Data, noise: Noise) -> Found {
-    let candidates = candidates(data);
     let baseline = fit(data, None, Vec::new(), noise, &|_| true);
+    let mut alone = Vec::new();
     let mut current = baseline.clone();
     let mut named: Vec<Named> = Vec::new();
-    let (mut invisible, mut detectable, mut alone) = (Vec::new(), Vec::new(), Vec::new());
+    let mut first: Option<Pass> = None;
     loop {
+        let candidates = candidates(data, &current.series);
         let pass = pass(data, &current, &candidates, noise, None);
-        if named.is_empty() {
-            invisible.clone_from(&pass.invisible);
-            detectable.clone_from(&pass.detectable);
-            for (number, candidate) in candidates.iter().enumerate() {
-                let best = (0..pass.blocks.len()).filter(|&b| pass.blocks[b].candidate == number);
-                if let Some(best) = best.max_by(|&a, &b| pass.singles[a].total_cmp(&pass.singles[b])) {
-                    let (chi2, degrees) = pass.scores[best].unwrap_or((0.0, 0));
-                    alone.push((candidate.effect.name, chi2, degrees, pass.singles[best]));
-                }
-            }
-        }
-        let Some(best) = pass.models.first().filter(|model| model.ln_bayes > THRESHOLD) else { break };
-        // The simplest of the models within the evidence.
-        let best = pass
-            .models
-            .iter()
-            .filter(|model| model.ln_bayes > best.ln_bayes - RIVAL_NATS)
-            .min_by_key(|model| model.blocks.len())
-            .unwrap_or(best);
-        // Of a pair that has one strong member, that one first: the tangents of the other hold only when it is fitted.
-        let strongest =
-            best.blocks.iter().copied().max_by(|&a, &b| pass.singles[a].total_cmp(&pass.singles[b]));
-        let strong = strongest.filter(|&block| best.blocks.len() > 1 && pass.singles[block] > STRONG_NATS);
-        let strong = strong.map(|block| Model { blocks: vec![block], ln_bayes: pass.singles[block] });
-        let best = strong.as_ref().unwrap_or(best);
-        let names = pass.names(best, &candidates);
-        if names.len() + named.len() > MOST_EFFECTS {
+        let next = pass.next(&named);
+        first.get_or_insert_with(|| {
+            alone = pass.alone(&candidates);
+            pass.clone()
+        });
+        let Some(best) = next else { break };
+        if best.blocks.len() + named.len() > MOST_EFFECTS {
             break;
         }
+        let names = pass.names(&best, &candidates);
         let mut rivals: Vec<String> = pass
             .models
             .iter()
@@ -180,5 +169,41 @@ pub fn search(data: &Data, noise: Noise) -> Found {
         }
         current = fit(data, Some(&current), pieces, noise, &|_| true);
     }
-    Found { baseline, fit: current, named, invisible, detectable, alone }
+    let first = first.unwrap_or_default();
+    Found { baseline, fit: current, named, invisible: first.invisible, detectable: first.detectable, alone }
+}
+
+impl Pass {
+    /// The model to be fitted next, beside those that are named.
+    fn next(&self, named: &[Named]) -> Option<Model> {
+        let explained = |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
+        let enough = |model: &&Model| {
+            model.ln_bayes > THRESHOLD
+                && model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max) > tolerated(named)
+        };
+        let best = self.models.iter().find(enough)?;
+        // The simplest of the models within the evidence.
+        let within = self.models.iter().filter(enough).filter(|m| m.ln_bayes > best.ln_bayes - RIVAL_NATS);
+        let best = within.min_by_key(|model| model.blocks.len())?;
+        // Of a pair that has one strong member, that one first: the tangents of the other hold only when it is fitted.
+        let strongest =
+            best.blocks.iter().copied().max_by(|&a, &b| self.singles[a].total_cmp(&self.singles[b]))?;
+        if best.blocks.len() > 1 && self.singles[strongest] > STRONG_NATS {
+            return Some(Model { blocks: vec![strongest], ln_bayes: self.singles[strongest] });
+        }
+        Some(best.clone())
+    }
+
+    /// Each candidate by itself, in its best variant.
+    fn alone(&self, candidates: &[Candidate]) -> Vec<(&'static str, f64, usize, f64)> {
+        let mut alone = Vec::new();
+        for (number, candidate) in candidates.iter().enumerate() {
+            let of = (0..self.blocks.len()).filter(|&block| self.blocks[block].candidate == number);
+            if let Some(best) = of.max_by(|&a, &b| self.singles[a].total_cmp(&self.singles[b])) {
+                let (chi2, degrees) = self.scores[best].unwrap_or((0.0, 0));
+                alone.push((candidate.effect.name, chi2, degrees, self.singles[best]));
+            }
+        }
+        alone
+    }
 }

@@ -17,6 +17,8 @@ pub struct Parameter {
     pub typical: f64,
     /// Shapes (a frequency, a time constant) change nothing while the effect is off: values from which a search starts.
     pub shapes: &'static [f64],
+    /// A shape that takes no values between those.
+    pub is_choice: bool,
 }
 
 impl Parameter {
@@ -28,7 +30,7 @@ impl Parameter {
         bounds: (f64, f64),
         typical: f64,
     ) -> Self {
-        Self { name, unit, off, bounds, typical, shapes: &[] }
+        Self { name, unit, off, bounds, typical, shapes: &[], is_choice: false }
     }
 
     /// A shape: it matters only where a strength is not off.
@@ -39,7 +41,18 @@ impl Parameter {
         bounds: (f64, f64),
         shapes: &'static [f64],
     ) -> Self {
-        Self { name, unit, off: usual, bounds, typical: usual, shapes }
+        Self { name, unit, off: usual, bounds, typical: usual, shapes, is_choice: false }
+    }
+
+    /// A shape that is one of `shapes`, the first of them as a rule.
+    pub const fn choice(name: &'static str, unit: &'static str, shapes: &'static [f64]) -> Self {
+        let (first, last) = (shapes[0], shapes[shapes.len() - 1]);
+        Self { is_choice: true, ..Self::shape(name, unit, first, (first, last), shapes) }
+    }
+
+    /// How far from off it may be.
+    pub fn reach(&self) -> f64 {
+        (self.bounds.1 - self.off).max(self.off - self.bounds.0)
     }
 
     /// Whether it is a shape.

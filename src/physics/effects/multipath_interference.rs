@@ -2,16 +2,18 @@
 
 use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
 use crate::units::phase_rad;
+use std::sync::Arc;
 
-/// A second return: its amplitude relative to the direct one where that is at 1 m, and its longer way (one way, m). It falls off with
-/// its own length.
+/// A second return by way of a wall that stands beside the path of the light, at the same distance all along: out directly, back by the
+/// wall's mirror image, √(d² + 4 L²) for a target at d. Its amplitude relative to the direct one is the parameter, were the wall close,
+/// and less by the longer way.
 pub static EFFECT: Effect = Effect {
     name: "multipath_interference",
-    sentence: "Part of the light reaches the pixel by a longer way (another surface, a wall), and its phasor adds to the direct one.",
+    sentence: "Part of the light reaches the pixel by a longer way (a wall, another surface), and its phasor adds to the direct one.",
     reference: "Dorrington et al. 2011; D_n = sum_i A_i cos(theta_n - phi_i)",
     parameters: &[
         Parameter::strength("relative_amplitude", "1", 0.0, (0.0, 0.8), 0.1),
-        Parameter::shape("longer_by_m", "m", 0.6, (0.05, 6.0), &[0.3, 0.7, 1.3, 2.0]),
+        Parameter::shape("wall_distance_m", "m", 0.6, (0.02, 6.0), &[0.15, 0.4, 0.8, 1.5]),
     ],
     place: Place::Correlation,
     chance: Chance::None,
@@ -20,17 +22,21 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let (share, longer_m) = (values[0], values[1]);
+    let (share, wall_m) = (values[0], values[1]);
     if share == 0.0 {
         return;
     }
-    let further_rad = phase_rad(longer_m, exposure.frequency_hz);
-    let phases: Vec<f64> = exposure.phase_rad.iter().map(|phase| phase + further_rad).collect();
-    let falloff = |range_m: f64| share * (range_m / (range_m + longer_m)).powi(2);
-    let amplitudes: Vec<f64> =
-        exposure.amplitude_dn.iter().zip(&exposure.range_m).map(|(a, &r)| a * falloff(r)).collect();
-    let constants = exposure.constant_dn.iter().zip(&exposure.range_m).map(|(b, &r)| b * falloff(r));
-    let constants: Vec<f64> = constants.collect();
+    let pixels = Arc::clone(&exposure.pixels);
+    let count = exposure.range_m.len();
+    let (mut amplitudes, mut phases) = (vec![0.0; count], vec![0.0; count]);
+    for pixel in (0..count).filter(|&pixel| pixels.target[pixel]) {
+        let range_m = exposure.range_m[pixel];
+        let back_m = (range_m * range_m + 4.0 * wall_m * wall_m).sqrt();
+        let part = share * range_m / back_m;
+        amplitudes[pixel] = part * exposure.amplitude_dn[pixel];
+        phases[pixel] =
+            exposure.phase_rad[pixel] + phase_rad((back_m - range_m) / 2.0, exposure.frequency_hz);
+        exposure.signal_dn[pixel] += part * exposure.constant_dn[pixel];
+    }
     exposure.add_path(&amplitudes, &phases);
-    exposure.signal_dn.iter_mut().zip(constants).for_each(|(signal, more)| *signal += more);
 }

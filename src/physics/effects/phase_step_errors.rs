@@ -1,25 +1,32 @@
 //! Each phase step with an error of its own.
 
 use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use std::f64::consts::TAU;
 
 const fn step(name: &'static str) -> Parameter {
     Parameter::strength(name, "rad", 0.0, (-0.5, 0.5), 0.01)
 }
 
-/// Error of the phase step of frame 0, 1, … of a set; frames beyond the last have none.
+/// Error of setting 0, 1, … of the phase shifter. Its settings are spaced evenly over a turn, and a commanded phase takes the nearest
+/// (of two that are equally near, the even one); with none a turn, each frame of a set has a setting of its own, whatever its offset.
 pub static EFFECT: Effect = Effect {
     name: "phase_step_errors",
-    sentence: "Single phase steps are off (PLL or delay-line quanta): the same frame of every set has the same phase error.",
+    sentence: "Single settings of the phase shifter are off (PLL or delay-line quanta): whenever a phase step is used again, so is its error.",
     reference: "theta_n -> theta_n + eps_n",
     parameters: &[
-        step("frame_0_rad"),
-        step("frame_1_rad"),
-        step("frame_2_rad"),
-        step("frame_3_rad"),
-        step("frame_4_rad"),
-        step("frame_5_rad"),
-        step("frame_6_rad"),
-        step("frame_7_rad"),
+        step("setting_0_rad"),
+        step("setting_1_rad"),
+        step("setting_2_rad"),
+        step("setting_3_rad"),
+        step("setting_4_rad"),
+        step("setting_5_rad"),
+        step("setting_6_rad"),
+        step("setting_7_rad"),
+        step("setting_8_rad"),
+        step("setting_9_rad"),
+        step("setting_10_rad"),
+        step("setting_11_rad"),
+        Parameter::choice("settings_a_turn", "1", &[0.0, SETTINGS]),
     ],
     place: Place::Clock,
     chance: Chance::None,
@@ -27,6 +34,47 @@ pub static EFFECT: Effect = Effect {
     act,
 };
 
+const SETTINGS: f64 = 12.0;
+/// Closer than this (in settings) to the middle between two settings is the middle: files round a phase offset.
+const MIDDLE: f64 = 1e-6;
+
+fn setting(angle_rad: f64, settings: f64) -> usize {
+    let place = (angle_rad / TAU).rem_euclid(1.0) * settings;
+    let nearest = if (place.fract() - 0.5).abs() < MIDDLE {
+        2.0 * ((place.floor() + 1.0) / 2.0).floor()
+    } else {
+        place.round()
+    };
+    (nearest % settings) as usize
+}
+
 fn act(values: &[f64], exposure: &mut Exposure) {
-    exposure.angle_rad += values.get(exposure.moment.frame).copied().unwrap_or(0.0);
+    let settings = values[values.len() - 1].round();
+    let moment = exposure.moment;
+    let number =
+        if settings >= 1.0 { setting(moment.offset_rad + moment.step_rad, settings) } else { moment.frame };
+    exposure.angle_rad += values[..values.len() - 1].get(number).copied().unwrap_or(0.0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_commanded_phase_takes_the_nearest_setting_and_the_even_one_of_two() {
+        let cases = [
+            (0.0, 0),
+            (14.0, 0),
+            (15.0, 0),
+            (16.0, 1),
+            (45.0, 2),
+            (75.0, 2),
+            (345.0, 0),
+            (-30.0, 11),
+            (725.0, 0),
+        ];
+        for (degrees, expected) in cases {
+            assert_eq!(setting(f64::to_radians(degrees), SETTINGS), expected, "{degrees}");
+        }
+    }
 }

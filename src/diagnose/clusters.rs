@@ -1,0 +1,176 @@
+//! Errors that samples share at random: those of a set, a frame, a row, a column, of neighbours, or of each pixel alone.
+//!
+//! The evidence for a common error of variance s² is ln Z(s²) = Σ [½ s² u² / (1 + s² k) − ½ ln(1 + s² k)] over the clusters, with u
+//! a cluster's score and k its information.
+
+use super::data::Data;
+use super::gram::Whitened;
+
+/// Which samples share an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Level {
+    /// All of a set.
+    Set,
+    /// All of a frame.
+    Frame,
+    /// A row of a frame.
+    Row,
+    /// A column of a frame.
+    Column,
+    /// Two by two pixels of a frame.
+    Neighbours,
+    /// None.
+    Pixel,
+}
+
+/// All levels.
+pub const LEVELS: [Level; 6] =
+    [Level::Set, Level::Frame, Level::Row, Level::Column, Level::Neighbours, Level::Pixel];
+
+/// In which way samples may be off together: by so much light (DN), in proportion to the signal, in phase (rad), as if the target moved
+/// at another time (s).
+pub const MODES: [&str; 4] = ["offset", "gain", "phase", "time"];
+
+const STEPS: usize = 14;
+/// Least and greatest standard deviation of each mode.
+const ENDS: [(f64, f64); 4] = [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03)];
+
+fn variance(mode: usize, step: usize) -> f64 {
+    let (low, high) = ENDS[mode];
+    (low * (high / low).powf(step as f64 / (STEPS - 1) as f64)).powi(2)
+}
+
+/// A common error that the data ask for.
+#[derive(Debug, Clone, Copy)]
+pub struct Cluster {
+    /// Which samples share it.
+    pub level: Level,
+    /// Of [`MODES`].
+    pub mode: usize,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// By how much it raises the variance of what a cluster says.
+    pub inflation: f64,
+    /// Evidence, nats.
+    pub ln_bayes: f64,
+    /// The recording that shows it most.
+    pub take: usize,
+}
+
+/// Clusters and their information, of a level and mode.
+type Informed = [[(f64, f64); MODES.len()]; LEVELS.len()];
+type Curves = [[[f64; STEPS]; MODES.len()]; LEVELS.len()];
+
+/// Evidence of all levels and modes, recording by recording.
+#[derive(Debug, Clone, Default)]
+pub struct Clusters {
+    evidence: Vec<Curves>,
+    information: Informed,
+    /// Score and information of the set whose frames come just now.
+    set: [(f64, f64); MODES.len()],
+}
+
+impl Clusters {
+    /// With the clusters of one more frame; the frames of a set come one after the other.
+    pub fn with(mut self, data: &Data, whitened: &Whitened) -> Self {
+        self.evidence.resize_with(data.takes.len(), Default::default);
+        let geometry = data.geometry();
+        let (width, blocks) = (geometry.width, geometry.width.div_ceil(2));
+        let (frame, take) = (whitened.frame, &data.takes[whitened.take]);
+        let velocity_m_s = take.moments[whitened.index].velocity_m_s;
+        let sizes = [1, geometry.height, width, blocks * geometry.height.div_ceil(2), geometry.pixels()];
+        for mode in 0..MODES.len() {
+            if mode == 3 && velocity_m_s == 0.0 {
+                continue;
+            }
+            let mut sums = sizes.map(|size| vec![(0.0, 0.0); size]);
+            for pixel in 0..whitened.roots.len() {
+                let shape = match mode {
+                    0 => 1.0,
+                    1 => frame.base[pixel],
+                    2 => frame.own[1][pixel],
+                    _ => velocity_m_s * frame.position[pixel],
+                };
+                let value = whitened.roots[pixel] * shape;
+                let (row, column) = (pixel / width, pixel % width);
+                for (sums, place) in sums.iter_mut().zip([0, row, column, row / 2 * blocks + column / 2, pixel]) {
+                    sums[place].0 += value * whitened.residual[pixel];
+                    sums[place].1 += value * value;
+                }
+            }
+            self.set[mode].0 += sums[0][0].0;
+            self.set[mode].1 += sums[0][0].1;
+            // A pixel alone has noise, whatever it is proportional to.
+            let levels = if mode < 2 { 5 } else { 1 };
+            for (level, sums) in sums.iter().enumerate().take(levels) {
+                let informed = &mut self.information[level + 1][mode];
+                add(&mut self.evidence[whitened.take][level + 1][mode], informed, mode, sums);
+            }
+        }
+        if (whitened.index + 1) % take.frames == 0 {
+            for (mode, sum) in std::mem::take(&mut self.set).into_iter().enumerate() {
+                let informed = &mut self.information[0][mode];
+                add(&mut self.evidence[whitened.take][0][mode], informed, mode, &[sum]);
+            }
+        }
+        self
+    }
+
+    /// Those of both.
+    pub fn and(mut self, other: Self) -> Self {
+        if self.evidence.len() < other.evidence.len() {
+            self.evidence.resize_with(other.evidence.len(), Default::default);
+        }
+        for (curves, others) in self.evidence.iter_mut().zip(other.evidence) {
+            for (sum, other) in curves.iter_mut().flatten().flatten().zip(others.into_iter().flatten().flatten()) {
+                *sum += other;
+            }
+        }
+        for (sum, other) in self.information.iter_mut().flatten().zip(other.information.into_iter().flatten()) {
+            sum.0 += other.0;
+            sum.1 += other.1;
+        }
+        self
+    }
+
+    /// The best of every level and mode that has any evidence, best first.
+    pub fn ranked(&self) -> Vec<Cluster> {
+        let mut found = Vec::new();
+        for (number, level) in LEVELS.into_iter().enumerate() {
+            for mode in 0..MODES.len() {
+                let at = |step: usize| self.evidence.iter().map(|take| take[number][mode][step]).sum::<f64>();
+                let best = (0..STEPS).max_by(|&a, &b| at(a).total_cmp(&at(b))).unwrap_or(0);
+                let of_take = |take: &usize| self.evidence[*take][number][mode][best];
+                let take = (0..self.evidence.len()).max_by(|a, b| of_take(a).total_cmp(&of_take(b)));
+                found.push(Cluster {
+                    level,
+                    mode,
+                    sigma: variance(mode, best).sqrt(),
+                    inflation: {
+                        let (count, information) = self.information[number][mode];
+                        1.0 + variance(mode, best) * information / count.max(1.0)
+                    },
+                    ln_bayes: at(best),
+                    take: take.unwrap_or(0),
+                });
+            }
+        }
+        found.retain(|cluster| cluster.ln_bayes > 0.0);
+        found.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
+        found
+    }
+}
+
+fn add(curve: &mut [f64; STEPS], informed: &mut (f64, f64), mode: usize, sums: &[(f64, f64)]) {
+    for sum in sums.iter().filter(|sum| sum.1 > 0.0) {
+        informed.0 += 1.0;
+        informed.1 += sum.1;
+    }
+    for (step, evidence) in curve.iter_mut().enumerate() {
+        let variance = variance(mode, step);
+        for &(score, information) in sums.iter().filter(|sum| sum.1 > 0.0) {
+            let share = variance * information;
+            *evidence += 0.5 * variance * score * score / (1.0 + share) - 0.5 * share.ln_1p();
+        }
+    }
+}

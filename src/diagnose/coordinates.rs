@@ -1,0 +1,399 @@
+//! The coordinates in which a residual is looked for: for each, columns that no physics asked for.
+//!
+//! A column is a way in which frames may be off (more light, more signal, another phase) times a function of the coordinate.
+
+use super::columns::{Frame, OWN};
+use super::data::Data;
+use crate::frames::Geometry;
+use crate::physics::{Moment, Pixels};
+use crate::units::phase_rad;
+use std::f64::consts::TAU;
+
+/// What a column may be made of, in one frame.
+pub struct View<'a> {
+    /// When and how the frame was taken.
+    pub moment: &'a Moment,
+    /// Number of its recording.
+    pub take: usize,
+    /// The model's signal and tangents.
+    pub frame: &'a Frame,
+    /// The pixels.
+    pub pixels: &'a Pixels,
+    /// What the coordinates range over.
+    pub ranges: &'a Ranges,
+}
+
+/// What the coordinates range over in a campaign.
+#[derive(Debug, Clone)]
+pub struct Ranges {
+    geometry: Geometry,
+    /// Position of the target plane, m.
+    position_m: (f64, f64),
+    /// Greatest speed, m/s.
+    speed_m_s: f64,
+    /// Duration of each recording, s.
+    duration_s: Vec<f64>,
+    /// Frames a set of each recording, and the first number of its frames among those of all schemes.
+    frames: Vec<(usize, usize)>,
+    /// Frames of all schemes together.
+    frame_numbers: usize,
+    /// Natural logarithm of the amplitude.
+    ln_amplitude: (f64, f64),
+    full_scale_dn: f64,
+}
+
+impl Ranges {
+    /// Of the frames of `data`, seen by `pixels`.
+    pub fn of(data: &Data, pixels: &Pixels) -> Self {
+        let moments = || data.takes.iter().flat_map(|take| &take.moments);
+        let ends = |values: &mut dyn Iterator<Item = f64>| {
+            let (low, high) =
+                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+            if low < high { (low, high) } else { (low - 0.5, low + 0.5) }
+        };
+        let position_m = ends(&mut moments().map(|moment| moment.position_m + way_m(moment)));
+        let light = |pixel: usize| {
+            let range_m = pixels.obliquity[pixel];
+            (pixels.amplitude_1m_dn[pixel].max(1e-3) / (range_m * range_m)).ln()
+        };
+        let targets = (0..pixels.count()).filter(|&pixel| pixels.target[pixel]);
+        let at_1m = ends(&mut targets.map(light));
+        let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
+        schemes.sort_unstable();
+        schemes.dedup();
+        let first = |frames: usize| schemes.iter().take_while(|&&other| other < frames).sum();
+        Self {
+            geometry: data.geometry(),
+            position_m,
+            speed_m_s: moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max),
+            duration_s: data.takes.iter().map(|t| t.moments.last().map_or(0.0, |m| m.time_s)).collect(),
+            frames: data.takes.iter().map(|take| (take.frames, first(take.frames))).collect(),
+            frame_numbers: schemes.iter().sum(),
+            ln_amplitude: (
+                at_1m.0 - 2.0 * position_m.1.max(1e-3).ln(),
+                at_1m.1 - 2.0 * position_m.0.max(1e-3).ln(),
+            ),
+            full_scale_dn: pixels.full_scale_dn,
+        }
+    }
+}
+
+fn way_m(moment: &Moment) -> f64 {
+    moment.velocity_m_s * moment.in_set_s
+}
+
+/// A coordinate.
+pub struct Coordinate {
+    /// Its name in a verdict.
+    pub name: &'static str,
+    /// How many columns it has.
+    pub columns: fn(&Ranges) -> usize,
+    /// The columns that act in a frame.
+    pub fill: fn(&View) -> Vec<(usize, Vec<f64>)>,
+    /// What a column looks like, in words.
+    pub shape: fn(&Ranges, usize) -> String,
+}
+
+/// In which way a frame is off: by so much light, in proportion to its signal, in phase.
+const MODES: [&str; 3] = ["offset", "gain", "phase"];
+
+fn mode(view: &View, mode: usize) -> Vec<f64> {
+    match mode {
+        0 => vec![1.0; view.frame.base.len()],
+        1 => view.frame.base.clone(),
+        _ => view.frame.own[1].clone(),
+    }
+}
+
+/// Columns of all modes, for functions of the frame alone: `(number of the function, its value)`.
+fn by_frame(view: &View, of: usize, functions: &[(usize, f64)]) -> Vec<(usize, Vec<f64>)> {
+    let mut columns = Vec::new();
+    for number in 0..MODES.len() {
+        let base = mode(view, number);
+        for &(function, value) in functions.iter().filter(|(_, value)| *value != 0.0) {
+            columns.push((number * of + function, base.iter().map(|b| b * value).collect()));
+        }
+    }
+    columns
+}
+
+/// Columns of all modes, for functions of the pixel.
+fn by_pixel(
+    view: &View,
+    of: usize,
+    function: impl Fn(usize) -> Vec<(usize, f64)>,
+) -> Vec<(usize, Vec<f64>)> {
+    let count = view.frame.base.len();
+    let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; MODES.len() * of];
+    let modes: Vec<Vec<f64>> = (0..MODES.len()).map(|number| mode(view, number)).collect();
+    for pixel in 0..count {
+        for (which, value) in function(pixel) {
+            for (number, base) in modes.iter().enumerate() {
+                columns[number * of + which][pixel] = base[pixel] * value;
+            }
+        }
+    }
+    columns.into_iter().enumerate().collect()
+}
+
+fn mode_shape(of: usize, column: usize, what: impl Fn(usize) -> String) -> String {
+    format!("{}, {}", MODES[column / of], what(column % of))
+}
+
+/// Two neighbouring hats of `count` over 0 … 1, and how much of each.
+fn hats(place: f64, count: usize) -> [(usize, f64); 2] {
+    let along = place.clamp(0.0, 1.0) * (count - 1) as f64;
+    let left = (along.floor() as usize).min(count - 2);
+    let share = along - left as f64;
+    [(left, 1.0 - share), (left + 1, share)]
+}
+
+fn within(value: f64, (low, high): (f64, f64)) -> f64 {
+    (value - low) / (high - low)
+}
+
+fn between(part: usize, count: usize, (low, high): (f64, f64)) -> f64 {
+    low + (high - low) * part as f64 / (count - 1) as f64
+}
+
+const POSITIONS: usize = 14;
+const TIMES: usize = 8;
+const LIGHTS: usize = 10;
+const CODES: usize = 14;
+const CYCLES: usize = 6;
+const RUN_WAYS: [&str; 5] =
+    ["linear in velocity", "with speed", "with its square", "linear in velocity and frame", "with speed and frame"];
+/// A pixel's row or column matters to its own numbers only by something that changes from frame to frame.
+const CHANGES: [&str; 4] = ["with velocity", "with the frame of a set", "with distance", "with time"];
+
+/// All coordinates whose columns are functions.
+pub const COORDINATES: [Coordinate; 11] = [
+    Coordinate { name: "phase", columns: |_| 6 * CYCLES, fill: phase, shape: phase_shape },
+    Coordinate {
+        name: "position_m",
+        columns: |_| 3 * POSITIONS,
+        fill: |view| {
+            let position_m = view.moment.position_m + way_m(view.moment);
+            by_frame(view, POSITIONS, &hats(within(position_m, view.ranges.position_m), POSITIONS))
+        },
+        shape: |ranges, column| {
+            mode_shape(POSITIONS, column, |n| format!("at {:.2} m", between(n, POSITIONS, ranges.position_m)))
+        },
+    },
+    Coordinate {
+        name: "velocity_m_s",
+        columns: |_| 3 * RUN_WAYS.len(),
+        fill: |view| {
+            let moment = view.moment;
+            let velocity = moment.velocity_m_s / view.ranges.speed_m_s.max(1e-9);
+            let speed = velocity.abs();
+            let frame = centred(moment);
+            let functions = [velocity, speed, speed * speed, velocity * frame, speed * frame];
+            by_frame(view, RUN_WAYS.len(), &functions.into_iter().enumerate().collect::<Vec<_>>())
+        },
+        shape: |_, column| mode_shape(RUN_WAYS.len(), column, |n| RUN_WAYS[n].to_owned()),
+    },
+    Coordinate {
+        name: "frame",
+        columns: |ranges| 3 * ranges.frame_numbers,
+        fill: |view| {
+            let number = view.ranges.frames[view.take].1 + view.moment.frame;
+            by_frame(view, view.ranges.frame_numbers, &[(number, 1.0)])
+        },
+        shape: |ranges, column| {
+            mode_shape(ranges.frame_numbers, column, |n| {
+                let frames = ranges.frames.iter().find(|(frames, first)| (*first..first + frames).contains(&n));
+                frames.map_or_else(String::new, |(frames, first)| format!("frame {} of {frames}", n - first))
+            })
+        },
+    },
+    Coordinate {
+        name: "time_s",
+        columns: |ranges| 3 * TIMES * ranges.duration_s.len(),
+        fill: |view| {
+            let of = TIMES * view.ranges.duration_s.len();
+            let place = view.moment.time_s / view.ranges.duration_s[view.take].max(1e-9);
+            by_frame(view, of, &hats(place, TIMES).map(|(n, value)| (view.take * TIMES + n, value)))
+        },
+        shape: |ranges, column| {
+            mode_shape(TIMES * ranges.duration_s.len(), column, |n| {
+                format!("at {:.1} s", between(n % TIMES, TIMES, (0.0, ranges.duration_s[n / TIMES])))
+            })
+        },
+    },
+    Coordinate {
+        name: "row",
+        columns: |_| 3 * 2 * CHANGES.len(),
+        fill: |view| {
+            let height = view.ranges.geometry.height;
+            by_line(view, |pixel| along(view.ranges.geometry.row_column(pixel).0, height))
+        },
+        shape: line_shape,
+    },
+    Coordinate {
+        name: "column",
+        columns: |_| 3 * 2 * CHANGES.len(),
+        fill: |view| {
+            let width = view.ranges.geometry.width;
+            by_line(view, |pixel| along(view.ranges.geometry.row_column(pixel).1, width))
+        },
+        shape: line_shape,
+    },
+    Coordinate { name: "code", columns: |_| CODES + 2 * PATTERNS.len(), fill: code, shape: code_shape },
+    Coordinate {
+        name: "amplitude",
+        columns: |_| 3 * LIGHTS,
+        fill: |view| {
+            let light: Vec<f64> = amplitude_dn(view).into_iter().map(|dn| dn.max(1e-6).ln()).collect();
+            let ends = view.ranges.ln_amplitude;
+            by_pixel(view, LIGHTS, |pixel| match view.pixels.target[pixel] {
+                true => hats(within(light[pixel], ends), LIGHTS).to_vec(),
+                false => Vec::new(),
+            })
+        },
+        shape: |ranges, column| {
+            mode_shape(LIGHTS, column, |n| {
+                format!("at an amplitude of {:.0} DN", between(n, LIGHTS, ranges.ln_amplitude).exp())
+            })
+        },
+    },
+    Coordinate {
+        name: "set",
+        columns: |_| 3 * 2,
+        fill: |view| {
+            let odd = if view.moment.set % 2 == 0 { 1.0 } else { -1.0 };
+            by_frame(view, 2, &[(0, odd), (1, odd * centred(view.moment))])
+        },
+        shape: |_, column| {
+            mode_shape(2, column, |n| ["every other set", "every other set, with the frame"][n].to_owned())
+        },
+    },
+    Coordinate {
+        name: "neighbours",
+        columns: |_| NEIGHBOURS.len(),
+        fill: neighbours,
+        shape: |_, column| NEIGHBOURS[column].to_owned(),
+    },
+];
+
+/// A frame's place in its set, -1 … 1.
+fn centred(moment: &Moment) -> f64 {
+    along(moment.frame, moment.frames)
+}
+
+fn along(index: usize, count: usize) -> f64 {
+    if count > 1 { 2.0 * index as f64 / (count - 1) as f64 - 1.0 } else { 0.0 }
+}
+
+fn amplitude_dn(view: &View) -> Vec<f64> {
+    // The tangent by the constant light at 1 m is the light's falloff.
+    view.frame.own[2].iter().zip(&view.pixels.amplitude_1m_dn).map(|(share, at_1m)| share * at_1m).collect()
+}
+
+/// Phase: of the range (not of the offset) in cycles a turn as phase and gain errors, and of the waveform.
+fn phase(view: &View) -> Vec<(usize, Vec<f64>)> {
+    let moment = view.moment;
+    let position_m = moment.position_m + way_m(moment);
+    let count = view.frame.base.len();
+    let amplitude = amplitude_dn(view);
+    let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; 6 * CYCLES];
+    for pixel in (0..count).filter(|&pixel| view.pixels.target[pixel]) {
+        let range_m = position_m * view.pixels.obliquity[pixel];
+        let phase = phase_rad(range_m, moment.frequency_hz) + view.pixels.phase_rad[pixel] - moment.offset_rad;
+        let angle = moment.step_rad - phase;
+        for cycles in 1..=CYCLES {
+            let (sine, cosine) = (cycles as f64 * phase).sin_cos();
+            let (wave_sine, wave_cosine) = ((cycles + 1) as f64 * angle).sin_cos();
+            let at = 6 * (cycles - 1);
+            columns[at][pixel] = cosine * view.frame.own[1][pixel];
+            columns[at + 1][pixel] = sine * view.frame.own[1][pixel];
+            columns[at + 2][pixel] = cosine * amplitude[pixel];
+            columns[at + 3][pixel] = sine * amplitude[pixel];
+            columns[at + 4][pixel] = wave_cosine * amplitude[pixel];
+            columns[at + 5][pixel] = wave_sine * amplitude[pixel];
+        }
+    }
+    columns.into_iter().enumerate().collect()
+}
+
+fn phase_shape(_: &Ranges, column: usize) -> String {
+    let cycles = column / 6 + 1;
+    match column % 6 {
+        0 | 1 => format!("{cycles} cycles a turn, phase"),
+        2 | 3 => format!("{cycles} cycles a turn, offset"),
+        _ => format!("{} cycles a turn of the waveform", cycles + 1),
+    }
+}
+
+fn by_line(view: &View, along: impl Fn(usize) -> f64) -> Vec<(usize, Vec<f64>)> {
+    let moment = view.moment;
+    let changes = [
+        moment.velocity_m_s / view.ranges.speed_m_s.max(1e-9),
+        centred(moment),
+        2.0 * within(moment.position_m, view.ranges.position_m) - 1.0,
+        2.0 * moment.time_s / view.ranges.duration_s[view.take].max(1e-9) - 1.0,
+    ];
+    by_pixel(view, 2 * CHANGES.len(), |pixel| {
+        let x = along(pixel);
+        let of = |(n, change): (usize, &f64)| [(2 * n, x * change), (2 * n + 1, (x * x - 1.0 / 3.0) * change)];
+        changes.iter().enumerate().flat_map(of).collect()
+    })
+}
+
+fn line_shape(_: &Ranges, column: usize) -> String {
+    mode_shape(2 * CHANGES.len(), column, |n| format!("{} {}", ["slope", "bow"][n % 2], CHANGES[n / 2]))
+}
+
+/// Periods of patterns in the code, DN.
+const PATTERNS: [f64; 6] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
+
+fn code(view: &View) -> Vec<(usize, Vec<f64>)> {
+    let base = &view.frame.base;
+    let mut columns: Vec<Vec<f64>> = vec![vec![0.0; base.len()]; CODES + 2 * PATTERNS.len()];
+    for (pixel, &signal) in base.iter().enumerate() {
+        // Finer where most codes are: at a small signal.
+        let place = (signal.max(0.0) / view.ranges.full_scale_dn).sqrt();
+        for (hat, value) in hats(place, CODES) {
+            columns[hat][pixel] = value;
+        }
+        for (number, period) in PATTERNS.iter().enumerate() {
+            let (sine, cosine) = (TAU * (signal + view.pixels.pedestal_dn) / period).sin_cos();
+            columns[CODES + 2 * number][pixel] = cosine;
+            columns[CODES + 2 * number + 1][pixel] = sine;
+        }
+    }
+    columns.into_iter().enumerate().collect()
+}
+
+fn code_shape(ranges: &Ranges, column: usize) -> String {
+    match column.checked_sub(CODES) {
+        None => {
+            let place = column as f64 / (CODES - 1) as f64;
+            format!("at a signal of {:.0} DN", place * place * ranges.full_scale_dn)
+        }
+        Some(pattern) => format!("with a period of {} DN", PATTERNS[pattern / 2]),
+    }
+}
+
+const NEIGHBOURS: [&str; 4] =
+    ["neighbours beside", "neighbours above and below", "neighbours that are brighter", "the whole image"];
+
+fn neighbours(view: &View) -> Vec<(usize, Vec<f64>)> {
+    let base = &view.frame.base;
+    let Geometry { width, height } = view.ranges.geometry;
+    let mean = base.iter().sum::<f64>() / base.len().max(1) as f64;
+    let mut columns: Vec<Vec<f64>> = vec![vec![0.0; base.len()]; NEIGHBOURS.len()];
+    for (pixel, &own) in base.iter().enumerate() {
+        let (row, column) = view.ranges.geometry.row_column(pixel);
+        let at = |row: usize, column: usize| base[row.min(height - 1) * width + column.min(width - 1)] - own;
+        let [left, right] = [at(row, column.saturating_sub(1)), at(row, column + 1)];
+        let [above, below] = [at(row.saturating_sub(1), column), at(row + 1, column)];
+        columns[0][pixel] = left + right;
+        columns[1][pixel] = above + below;
+        columns[2][pixel] = [left, right, above, below].iter().map(|more| more.max(0.0)).sum();
+        columns[3][pixel] = mean - own;
+    }
+    columns.into_iter().enumerate().collect()
+}
+
+const _: () = assert!(OWN == 4);

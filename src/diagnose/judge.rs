@@ -1,0 +1,205 @@
+//! From a search and a location to a judgement: clean, explained, partly explained, unexplained.
+
+use super::clusters::{Cluster, Level, MODES};
+use super::data::Data;
+use super::fit::Fit;
+use super::gram::Noise;
+use super::location::{Location, locate};
+use super::pieces::tolerance;
+use super::search::{Found, Named, search};
+
+/// Evidence (nats) from which on a coordinate counts as located.
+const LOCATED_NATS: f64 = 4.0;
+/// The same for errors that samples share at random: twenty of them are looked at.
+const CLUSTER_NATS: f64 = 6.0;
+/// A set's common position error up to this is the encoder's usual noise, m.
+const USUAL_JITTER_M: f64 = 0.5e-3;
+/// Of what random errors explain, columns of a coordinate must explain so much to be what they are.
+const ORDERED_SHARE: f64 = 0.2;
+/// A form may leave so many times its tolerance before it is not believed.
+const DISBELIEF: f64 = 3.0;
+
+/// Where a mismatch lives.
+#[derive(Debug, Clone)]
+pub struct Place {
+    /// Coordinate of the verdict.
+    pub coordinate: &'static str,
+    /// What stands out, in words.
+    pub shape: String,
+    /// Evidence, nats.
+    pub ln_bayes: f64,
+    /// Chi squared that it explains, and by how many numbers.
+    pub chi2: (f64, usize),
+    /// The recording that shows it most.
+    pub take: usize,
+}
+
+/// The judgement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Simulation and recordings agree.
+    Clean,
+    /// The named effects bring the fit to the noise.
+    Explained,
+    /// Something named, something left.
+    PartlyExplained,
+    /// A mismatch, and nothing known that makes it.
+    Unexplained,
+}
+
+/// Everything that a diagnosis finds.
+#[derive(Debug)]
+pub struct Judgement {
+    /// In one word.
+    pub verdict: Verdict,
+    /// Where the recordings differ from the simulation that the camera describes, most significant first.
+    pub places: Vec<Place>,
+    /// Where they still differ from the fitted model.
+    pub left: Vec<Place>,
+    /// The effects that are asserted.
+    pub named: Vec<Named>,
+    /// Of the mismatch, the share that the named effects leave.
+    pub remainder: f64,
+    /// The search behind it.
+    pub found: Found,
+    /// The fit that is asserted: the baseline where nothing is.
+    pub fit: Fit,
+    /// The noise, corrected where the camera's description has it too small.
+    pub noise: Noise,
+}
+
+/// Diagnoses `data`, whose noise is `stated`.
+pub fn judge(data: &Data, stated: Noise) -> Judgement {
+    let mut noise = stated;
+    let mut found = search(data, noise);
+    let mut end = locate(data, &found.fit, noise);
+    let excess = noise_excess(data, &end);
+    if let Some(excess) = &excess {
+        match excess.mode {
+            0 => noise.floor += excess.sigma * excess.sigma,
+            _ => noise.square += excess.sigma * excess.sigma,
+        }
+        found = search(data, noise);
+        end = locate(data, &found.fit, noise);
+    }
+    let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };
+    let mut places = places(data, &baseline);
+    let left = self::places(data, &end);
+
+    // What random errors let appear among the columns is not asserted.
+    let inflation = end.clusters.iter().filter(|c| is_real(data, c)).map(|c| c.inflation).fold(1.0, f64::max);
+    let stands = |named: &Named| named.ln_bayes - 0.5 * named.score.0 * (1.0 - 1.0 / inflation) > 1.0;
+    let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
+    let explained: f64 = (found.baseline.chi2 - found.fit.chi2).max(0.0);
+    let dropped = named.len() < found.named.len();
+
+    let rest: f64 = left.iter().map(|place| place.chi2.0 - place.chi2.1 as f64).fold(0.0, f64::max);
+    let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
+    let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
+    let random = left.first().filter(|_| named.is_empty()).and_then(|_| random_effect(data, &end));
+    let verdict = if let Some((name, cluster)) = random.filter(|_| excess.is_none()) {
+        named = vec![Named { name, ln_bayes: cluster.ln_bayes, score: (2.0 * cluster.ln_bayes, 1), rivals: Vec::new() }];
+        Verdict::Explained
+    } else if named.is_empty() && excess.as_ref().is_some_and(|excess| excess.mode == 1) && left.is_empty() {
+        let ln_bayes = excess.map_or(0.0, |excess| excess.ln_bayes);
+        named.push(Named { name: "excess_noise", ln_bayes, score: (2.0 * ln_bayes, 1), rivals: Vec::new() });
+        Verdict::Explained
+    } else if named.is_empty() {
+        if left.is_empty() { Verdict::Clean } else { Verdict::Unexplained }
+    } else if left.is_empty() || remainder < believed {
+        Verdict::Explained
+    } else if remainder > 0.5 || named.len() == 1 && remainder > 0.1 || dropped {
+        named.clear();
+        Verdict::Unexplained
+    } else {
+        Verdict::PartlyExplained
+    };
+    if verdict == Verdict::Clean {
+        places.clear();
+    }
+    let fit = if named.is_empty() { found.baseline.clone() } else { found.fit.clone() };
+    Judgement { verdict, places, left, named, remainder, found, fit, noise }
+}
+
+/// Noise that pixels do not share, beyond what was stated.
+fn noise_excess(data: &Data, location: &Location) -> Option<Cluster> {
+    let real = location.clusters.iter().find(|cluster| is_real(data, cluster))?;
+    let ordered = location.columns.first().map_or(0.0, |columns| columns.ln_bayes);
+    (real.level == Level::Pixel && ordered < ORDERED_SHARE * real.ln_bayes).then(|| *real)
+}
+
+fn is_real(data: &Data, cluster: &Cluster) -> bool {
+    let metre_rad = data.takes.first().and_then(|take| take.moments.first());
+    let metre_rad = metre_rad.map_or(1.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
+    let usual = cluster.level == Level::Set && cluster.mode == 2 && cluster.sigma < USUAL_JITTER_M * metre_rad;
+    cluster.ln_bayes > CLUSTER_NATS && !usual
+}
+
+/// A random effect of the registry, if the strongest cluster is what it makes, and nothing orders it.
+fn random_effect(data: &Data, location: &Location) -> Option<(&'static str, Cluster)> {
+    let cluster = location.clusters.iter().find(|cluster| is_real(data, cluster))?;
+    let ordered = location.columns.first().map_or(0.0, |columns| columns.ln_bayes);
+    if ordered > 0.02 * cluster.ln_bayes + LOCATED_NATS {
+        return None;
+    }
+    let name = match (cluster.level, MODES[cluster.mode]) {
+        (Level::Frame, "phase") => "clock_jitter",
+        (Level::Frame, "time") => "timing_jitter_of_frames",
+        _ => return None,
+    };
+    Some((name, *cluster))
+}
+
+/// Coordinates that stand out, most significant first.
+fn places(data: &Data, location: &Location) -> Vec<Place> {
+    let worst = |_: ()| 0;
+    let columns = location.columns.iter().filter(|located| located.ln_bayes > LOCATED_NATS);
+    let mut places: Vec<Place> = columns
+        .map(|located| Place {
+            coordinate: located.coordinate,
+            shape: located.shape.clone(),
+            ln_bayes: located.ln_bayes,
+            chi2: located.chi2,
+            take: worst(()),
+        })
+        .collect();
+    let clusters: Vec<&Cluster> = location.clusters.iter().filter(|cluster| is_real(data, cluster)).collect();
+    let ordered = places.first().map_or(0.0, |place| place.ln_bayes);
+    if let Some(cluster) = clusters.first() {
+        let place = Place {
+            coordinate: coordinate(cluster),
+            shape: format!("random {} of {:.3e}, common to a {}", MODES[cluster.mode], cluster.sigma, common(cluster)),
+            ln_bayes: cluster.ln_bayes,
+            chi2: (2.0 * cluster.ln_bayes, 1),
+            take: cluster.take,
+        };
+        match ordered > ORDERED_SHARE * cluster.ln_bayes {
+            true => places.push(place),
+            false => places.insert(0, place),
+        }
+    }
+    places
+}
+
+fn coordinate(cluster: &Cluster) -> &'static str {
+    match cluster.level {
+        Level::Set if cluster.mode >= 2 => "encoder",
+        Level::Set => "set",
+        Level::Frame => "frame",
+        Level::Row => "row",
+        Level::Column => "column",
+        Level::Neighbours => "neighbours",
+        Level::Pixel => "amplitude",
+    }
+}
+
+fn common(cluster: &Cluster) -> &'static str {
+    match cluster.level {
+        Level::Set => "set",
+        Level::Frame => "frame",
+        Level::Row => "row",
+        Level::Column => "column",
+        Level::Neighbours => "few neighbours",
+        Level::Pixel => "pixel",
+    }
+}

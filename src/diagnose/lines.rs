@@ -1,0 +1,156 @@
+//! Lines: what is periodic in time, or in the encoder's reading, with a period that nobody knows beforehand.
+
+use super::data::Data;
+use super::gram::Whitened;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// In which way a frame is off: ambient light, signal, phase.
+pub const LINE_MODES: [&str; 3] = ["ambient light", "gain", "phase"];
+
+/// Score and information.
+type Sum = (f64, f64);
+
+/// What frames and sets say of errors that they share.
+#[derive(Debug, Clone, Default)]
+pub struct Series {
+    /// Recording, start (s), and the sums of each mode.
+    frames: Vec<(usize, f64, [Sum; LINE_MODES.len()])>,
+    /// The encoder's reading (m), and the target's position.
+    sets: Vec<(f64, Sum)>,
+}
+
+/// A line.
+#[derive(Debug, Clone, Copy)]
+pub struct Line {
+    /// Cycles a second, or a metre.
+    pub frequency: f64,
+    /// Chi squared that it explains.
+    pub chi2: f64,
+    /// Frequencies that were looked at and could have shown it.
+    pub looked: f64,
+}
+
+/// Lamps flicker with twice the mains' frequency, and not with all others: Hz.
+pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
+/// Periods of an encoder's error: cycles a metre.
+const CYCLES_M: (f64, f64) = (0.6, 250.0);
+/// Frequencies are so many times finer than the inverse of the whole length.
+const FINENESS: f64 = 4.0;
+
+impl Series {
+    /// With one more frame.
+    pub fn with(mut self, data: &Data, whitened: &Whitened) -> Self {
+        let moment = &data.takes[whitened.take].moments[whitened.index];
+        let frame = whitened.frame;
+        let mut sums = [(0.0, 0.0); LINE_MODES.len()];
+        let mut position = (0.0, 0.0);
+        for (pixel, (&root, &residual)) in whitened.roots.iter().zip(whitened.residual).enumerate() {
+            let shapes = [frame.ambient[pixel], frame.base[pixel], frame.own[1][pixel]];
+            for (sum, shape) in sums.iter_mut().zip(shapes) {
+                let value = root * shape;
+                sum.0 += value * residual;
+                sum.1 += value * value;
+            }
+            let value = root * frame.position[pixel];
+            position.0 += value * residual;
+            position.1 += value * value;
+        }
+        self.frames.push((whitened.take, moment.time_s, sums));
+        if moment.frame == 0 {
+            self.sets.push((moment.position_m, (0.0, 0.0)));
+        }
+        if let Some((_, sum)) = self.sets.last_mut() {
+            sum.0 += position.0;
+            sum.1 += position.1;
+        }
+        self
+    }
+
+    /// Those of both.
+    pub fn and(mut self, other: Self) -> Self {
+        self.frames.extend(other.frames);
+        self.sets.extend(other.sets);
+        self
+    }
+
+    /// The strongest line in time of a mode, with a phase of its own in every recording, Hz.
+    pub fn in_time(&self, mode: usize, ends: (f64, f64)) -> Option<Line> {
+        let takes = self.frames.iter().map(|frame| frame.0 + 1).max()?;
+        let groups: Vec<Vec<(f64, Sum)>> = (0..takes)
+            .map(|take| {
+                let of_take = self.frames.iter().filter(|frame| frame.0 == take);
+                of_take.map(|&(_, time_s, sums)| (time_s, sums[mode])).collect()
+            })
+            .collect();
+        strongest(&groups, ends)
+    }
+
+    /// The strongest line in the encoder's reading, cycles a metre.
+    pub fn in_position(&self) -> Option<Line> {
+        strongest(std::slice::from_ref(&self.sets), CYCLES_M)
+    }
+}
+
+/// The strongest line of all groups, each with a phase of its own (Lomb 1976, with the information as weights).
+fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64)) -> Option<Line> {
+    let length = |group: &Vec<(f64, Sum)>| {
+        let (first, last) = group
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (at, _)| (low.min(*at), high.max(*at)));
+        last - first
+    };
+    let longest = groups.iter().map(length).fold(0.0, f64::max);
+    if longest <= 0.0 {
+        return None;
+    }
+    let step = 1.0 / (FINENESS * longest);
+    let count = ((high - low) / step).ceil() as usize;
+    let power = |number: usize| -> f64 {
+        let frequency = low + number as f64 * step;
+        groups.iter().map(|group| power(group, frequency)).sum()
+    };
+    let powers: Vec<f64> = (0..count).into_par_iter().map(power).collect();
+    let best = (0..count).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
+    Some(Line { frequency: low + best as f64 * step, chi2: powers[best], looked: count as f64 })
+}
+
+fn power(group: &[(f64, Sum)], frequency: f64) -> f64 {
+    let (mut c, mut s, mut cc, mut ss, mut cs) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for &(at, (score, information)) in group {
+        let turns = at * frequency;
+        let (sine, cosine) = (TAU * (turns - turns.floor())).sin_cos();
+        c += score * cosine;
+        s += score * sine;
+        cc += information * cosine * cosine;
+        ss += information * sine * sine;
+        cs += information * cosine * sine;
+    }
+    let total = cc + ss;
+    if total <= 0.0 {
+        return 0.0;
+    }
+    // Where frames sample one phase of the line only, the other phase says nothing.
+    let determinant = cc * ss - cs * cs;
+    if determinant > 1e-3 * total * total {
+        (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant
+    } else if cc > ss {
+        c * c / cc
+    } else {
+        s * s / ss
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_found_among_gaps() {
+        let at = |n: usize| 0.025 * n as f64 + 0.175 * (n / 4) as f64;
+        let group: Vec<(f64, Sum)> = (0..400).map(|n| (at(n), ((TAU * 103.1 * at(n) + 1.0).sin(), 1.0))).collect();
+        let line = strongest(&[group], (90.0, 112.0)).unwrap();
+        assert!((line.frequency - 103.1).abs() < 0.01, "{line:?}");
+        assert!((line.chi2 - 200.0).abs() < 10.0, "{line:?}");
+    }
+}
