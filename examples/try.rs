@@ -9,10 +9,12 @@ fn main() {
         let found = &j.found;
         println!(
             "== {folder} {:.1} s {:?} chi2/n {:.5} -> {:.5} jitter {:.2e} m, remainder {:.4}",
-            t.elapsed().as_secs_f64(), j.verdict,
+            t.elapsed().as_secs_f64(),
+            j.verdict,
             found.baseline.chi2 / found.baseline.samples as f64,
             found.fit.chi2 / found.fit.samples as f64,
-            found.fit.jitter_m2.sqrt(), j.remainder
+            found.fit.jitter_m2.sqrt(),
+            j.remainder
         );
         let mut alone = found.alone.clone();
         alone.sort_by(|a, b| b.3.total_cmp(&a.3));

@@ -128,6 +128,16 @@ pub fn write(folder: &Path, artifacts: &[Artifact]) -> Result<()> {
     Ok(())
 }
 
+/// Writes `text` as the one file `path`, whatever stood there: beside its place first, then renamed.
+///
+/// # Errors
+/// A place that cannot be written.
+pub fn write_file(path: &Path, text: &str) -> Result<()> {
+    let path = if path.parent() == Some(Path::new("")) { &Path::new(".").join(path) } else { path };
+    stage(path, text)?.persist(path).map_err(|error| obstacle(path, &error.error))?;
+    Ok(())
+}
+
 fn obstacle(path: &Path, error: &std::io::Error) -> Problem {
     Problem::io(path, "write", error).remedy("choose a folder that is writable")
 }

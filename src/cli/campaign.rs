@@ -17,7 +17,7 @@ pub(super) struct Fitted {
 }
 
 /// `folder` itself, or the recordings in it where it is a campaign: a folder without recording.toml whose folders have one.
-fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>> {
+pub(super) fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>> {
     let is_recording = |folder: &Path| folder.join("recording.toml").is_file();
     if is_recording(folder) || !folder.is_dir() {
         return Ok(vec![folder.to_owned()]);

@@ -5,6 +5,7 @@ mod atlas;
 mod campaign;
 mod coverage;
 mod demo;
+mod diagnose;
 mod explain;
 mod generate;
 mod mutate;
@@ -48,6 +49,7 @@ enum Command {
     Paper(paper::Paper),
     Sweep(Box<sweep::Sweep>),
     Demo(demo::Demo),
+    Diagnose(diagnose::Diagnose),
     Synth(synth::Synth),
     Mutate(mutate::Mutate),
     Coverage(coverage::Coverage),
@@ -70,6 +72,7 @@ impl Arguments {
             Command::Paper(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Demo(command) => command.run(),
+            Command::Diagnose(command) => command.run(),
             Command::Synth(command) => command.run(),
             Command::Mutate(command) => command.run(),
             Command::Coverage(command) => command.run(),

@@ -93,7 +93,9 @@ impl Clusters {
                 };
                 let value = whitened.roots[pixel] * shape;
                 let (row, column) = (pixel / width, pixel % width);
-                for (sums, place) in sums.iter_mut().zip([0, row, column, row / 2 * blocks + column / 2, pixel]) {
+                for (sums, place) in
+                    sums.iter_mut().zip([0, row, column, row / 2 * blocks + column / 2, pixel])
+                {
                     sums[place].0 += value * whitened.residual[pixel];
                     sums[place].1 += value * value;
                 }
@@ -122,11 +124,14 @@ impl Clusters {
             self.evidence.resize_with(other.evidence.len(), Default::default);
         }
         for (curves, others) in self.evidence.iter_mut().zip(other.evidence) {
-            for (sum, other) in curves.iter_mut().flatten().flatten().zip(others.into_iter().flatten().flatten()) {
+            for (sum, other) in
+                curves.iter_mut().flatten().flatten().zip(others.into_iter().flatten().flatten())
+            {
                 *sum += other;
             }
         }
-        for (sum, other) in self.information.iter_mut().flatten().zip(other.information.into_iter().flatten()) {
+        for (sum, other) in self.information.iter_mut().flatten().zip(other.information.into_iter().flatten())
+        {
             sum.0 += other.0;
             sum.1 += other.1;
         }

@@ -18,12 +18,22 @@ pub struct Column {
     pub parameter: usize,
 }
 
+/// How a column differs from the base, and over what the difference is divided.
+enum Change {
+    /// Another chain.
+    Chain(Box<Chain>, f64),
+    /// One more effect.
+    More(Active, f64),
+}
+
 /// The chains of one recording: the base, and one for each difference from it.
 struct Chains {
     base: Chain,
     own: [(Chain, f64); OWN],
-    /// The place from which each differs, and over what it is divided.
-    columns: Vec<Option<(Chain, f64)>>,
+    /// By what each column differs; nothing where it does not act.
+    columns: Vec<Option<Change>>,
+    /// Whether a column needs the frame before.
+    looks_back: bool,
 }
 
 /// The forward model around a base, with its tangents.
@@ -108,16 +118,16 @@ impl<'a> Tangents<'a> {
                     let place =
                         fitted[..column.piece].iter().filter(|piece| piece.takes.contains(&take)).count();
                     changed[place].values = values;
+                    Some(Change::Chain(Box::new(with(Arc::clone(pixels), changed)), step))
                 } else {
-                    changed.push(Active { effect: piece.effect, values });
+                    Some(Change::More(Active { effect: piece.effect, values }, step))
                 }
-                Some((with(Arc::clone(pixels), changed), step))
             };
-            Chains {
-                base: with(Arc::clone(pixels), effects.clone()),
-                own,
-                columns: columns.iter().map(of).collect(),
-            }
+            let columns: Vec<Option<Change>> = columns.iter().map(of).collect();
+            let looks_back = columns
+                .iter()
+                .any(|change| matches!(change, Some(Change::More(more, _)) if more.effect.looks_back));
+            Chains { base: with(Arc::clone(pixels), effects.clone()), own, columns, looks_back }
         });
         let chains = chains.collect();
         (Self { data, chains, count: columns.len() }, columns)
@@ -141,8 +151,25 @@ impl<'a> Tangents<'a> {
         let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
         let position = difference(expose(&chains.base, moved), POSITION_STEP_M);
         let own = chains.own.each_ref().map(|(chain, step)| difference(expose(chain, moment), *step));
-        let columns = chains.columns.iter().map(|column| match column {
-            Some((chain, step)) => difference(expose(chain, moment), *step),
+        let stations = if chains.columns.iter().any(|change| matches!(change, Some(Change::More(..)))) {
+            let looks_back = chains.looks_back || chains.base.looks_back();
+            let before_dn = looks_back.then(|| chains.base.arrive(before, Memory::default()));
+            chains.base.stations(moment, Memory { before_dn, ..Memory::default() })
+        } else {
+            Vec::new()
+        };
+        let columns = chains.columns.iter().map(|change| match change {
+            Some(Change::Chain(chain, step)) => difference(expose(chain, moment), *step),
+            Some(Change::More(more, step)) => {
+                let station = &stations[more.effect.place as usize];
+                let mut exposure = station.clone();
+                (more.effect.act)(&more.values, &mut exposure);
+                if exposure == *station {
+                    return Vec::new();
+                }
+                chains.base.resume(&mut exposure, more.effect.place);
+                difference(exposure.signal_dn, *step)
+            }
             None => Vec::new(),
         });
         let columns = columns.collect();

@@ -118,11 +118,7 @@ fn by_frame(view: &View, of: usize, functions: &[(usize, f64)]) -> Vec<(usize, V
 }
 
 /// Columns of all modes, for functions of the pixel.
-fn by_pixel(
-    view: &View,
-    of: usize,
-    function: impl Fn(usize) -> Vec<(usize, f64)>,
-) -> Vec<(usize, Vec<f64>)> {
+fn by_pixel(view: &View, of: usize, function: impl Fn(usize) -> Vec<(usize, f64)>) -> Vec<(usize, Vec<f64>)> {
     let count = view.frame.base.len();
     let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; MODES.len() * of];
     let modes: Vec<Vec<f64>> = (0..MODES.len()).map(|number| mode(view, number)).collect();
@@ -161,8 +157,13 @@ const TIMES: usize = 8;
 const LIGHTS: usize = 10;
 const CODES: usize = 14;
 const CYCLES: usize = 6;
-const RUN_WAYS: [&str; 5] =
-    ["linear in velocity", "with speed", "with its square", "linear in velocity and frame", "with speed and frame"];
+const RUN_WAYS: [&str; 5] = [
+    "linear in velocity",
+    "with speed",
+    "with its square",
+    "linear in velocity and frame",
+    "with speed and frame",
+];
 /// A pixel's row or column matters to its own numbers only by something that changes from frame to frame.
 const CHANGES: [&str; 4] = ["with velocity", "with the frame of a set", "with distance", "with time"];
 
@@ -202,7 +203,8 @@ pub const COORDINATES: [Coordinate; 11] = [
         },
         shape: |ranges, column| {
             mode_shape(ranges.frame_numbers, column, |n| {
-                let frames = ranges.frames.iter().find(|(frames, first)| (*first..first + frames).contains(&n));
+                let frames =
+                    ranges.frames.iter().find(|(frames, first)| (*first..first + frames).contains(&n));
                 frames.map_or_else(String::new, |(frames, first)| format!("frame {} of {frames}", n - first))
             })
         },
@@ -299,7 +301,8 @@ fn phase(view: &View) -> Vec<(usize, Vec<f64>)> {
     let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; 6 * CYCLES];
     for pixel in (0..count).filter(|&pixel| view.pixels.target[pixel]) {
         let range_m = position_m * view.pixels.obliquity[pixel];
-        let phase = phase_rad(range_m, moment.frequency_hz) + view.pixels.phase_rad[pixel] - moment.offset_rad;
+        let phase =
+            phase_rad(range_m, moment.frequency_hz) + view.pixels.phase_rad[pixel] - moment.offset_rad;
         let angle = moment.step_rad - phase;
         for cycles in 1..=CYCLES {
             let (sine, cosine) = (cycles as f64 * phase).sin_cos();
@@ -335,7 +338,8 @@ fn by_line(view: &View, along: impl Fn(usize) -> f64) -> Vec<(usize, Vec<f64>)> 
     ];
     by_pixel(view, 2 * CHANGES.len(), |pixel| {
         let x = along(pixel);
-        let of = |(n, change): (usize, &f64)| [(2 * n, x * change), (2 * n + 1, (x * x - 1.0 / 3.0) * change)];
+        let of =
+            |(n, change): (usize, &f64)| [(2 * n, x * change), (2 * n + 1, (x * x - 1.0 / 3.0) * change)];
         changes.iter().enumerate().flat_map(of).collect()
     })
 }

@@ -5,7 +5,6 @@ use crate::frames::Geometry;
 use crate::physics::Moment;
 use crate::problem::{Problem, Result};
 use crate::recording::{Camera, Recording};
-use std::path::Path;
 
 /// A recording's frames.
 #[derive(Debug, Clone)]
@@ -35,22 +34,25 @@ pub struct Data {
 const CLIPPED_DN: u32 = 2;
 
 impl Data {
-    /// Reads the campaign in `folder`, or the one recording that it is.
+    /// The recordings of one campaign.
     ///
     /// # Errors
-    /// No recording, no camera, recordings that do not belong together, and whatever a recording is refused for.
-    pub fn read(folder: &Path) -> Result<Self> {
-        let recordings = recordings(folder)?;
-        let first = &recordings[0];
+    /// No recording, no camera, recordings that do not belong together, and a set of which nothing can be simulated.
+    pub fn of(recordings: &[Recording]) -> Result<Self> {
+        let Some(first) = recordings.first() else {
+            return Err(
+                Problem::at("diagnosis", "no recording").expected("a recording, or a campaign of recordings")
+            );
+        };
         let Some(camera) = first.camera.clone() else {
-            return Err(Problem::in_file(folder, "has no camera.toml")
+            return Err(Problem::in_file(&first.folder, "has no camera.toml")
                 .expected("what the simulation of this camera knows and includes, beside the recordings")
                 .remedy("write one: sensor, correlation, physics"));
         };
         let geometry = first.geometry();
         let target: Vec<bool> = (0..geometry.pixels()).map(|pixel| first.sees_target(pixel)).collect();
         let mut takes = Vec::new();
-        for recording in &recordings {
+        for recording in recordings {
             if recording.geometry() != geometry || camera.geometry != geometry {
                 return Err(Problem::in_file(&recording.folder, "has another number of pixels")
                     .expected(format_args!("{} x {}", geometry.width, geometry.height)));
@@ -85,28 +87,15 @@ impl Data {
         self.camera.geometry
     }
 
+    /// Mean signal of the samples that count, DN.
+    pub fn typical_signal_dn(&self) -> f64 {
+        let signals =
+            || self.takes.iter().flat_map(|take| &take.signal_dn).filter(|signal| signal.is_finite());
+        signals().map(|&signal| f64::from(signal)).sum::<f64>() / signals().count().max(1) as f64
+    }
+
     /// Number of pixels.
     pub fn pixels(&self) -> usize {
         self.geometry().pixels()
     }
-}
-
-/// The recordings of a campaign, by name, or the one that `folder` is.
-fn recordings(folder: &Path) -> Result<Vec<Recording>> {
-    if folder.join("recording.toml").exists() {
-        return Ok(vec![Recording::open(folder)?]);
-    }
-    let entries = std::fs::read_dir(folder).map_err(|error| {
-        Problem::io(folder, "open", &error).expected("a campaign: a folder of recordings with a camera.toml")
-    })?;
-    let mut folders: Vec<_> = entries
-        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
-        .filter(|path| path.join("recording.toml").exists())
-        .collect();
-    folders.sort();
-    if folders.is_empty() {
-        return Err(Problem::in_file(folder, "holds no recording")
-            .expected("a campaign: a folder of recordings with a camera.toml"));
-    }
-    folders.iter().map(|path| Recording::open(path)).collect()
 }

@@ -63,8 +63,7 @@ impl<'a> Evidence<'a> {
         candidates: usize,
     ) -> Self {
         let white = |block: &Block| {
-            let seen =
-                |&&column: &&usize| is_seen(matrix[(column, column)], raw[column], reach(column));
+            let seen = |&&column: &&usize| is_seen(matrix[(column, column)], raw[column], reach(column));
             let columns: Vec<usize> = block.columns.iter().filter(seen).copied().collect();
             if columns.is_empty() {
                 return None;

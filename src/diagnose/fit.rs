@@ -105,7 +105,24 @@ fn start(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
         numbers[2][pixel] = solution[2];
         numbers[3][pixel] = solution[3];
     }
+    split_background(data, &mut numbers);
     Arc::new(pixels(data, numbers))
+}
+
+/// A background that never moves does not tell its constant light from the ambient light: it is given the target's usual ratio of
+/// constant light to amplitude, as far as there is so much light.
+fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
+    let mut ratios: Vec<f64> = (0..data.pixels())
+        .filter(|&pixel| data.target[pixel] && numbers[0][pixel] > 0.0)
+        .map(|pixel| numbers[2][pixel] / numbers[0][pixel])
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    let ratio = ratios.get(ratios.len() / 2).copied().unwrap_or(0.0).max(0.0);
+    for pixel in (0..data.pixels()).filter(|&pixel| !data.target[pixel]) {
+        let constant = (ratio * numbers[0][pixel]).min(numbers[3][pixel].max(0.0));
+        numbers[2][pixel] = constant;
+        numbers[3][pixel] -= constant;
+    }
 }
 
 /// Iterations of Gauss and Newton: the pixels' own numbers start close.
@@ -122,43 +139,51 @@ pub fn fit(
     let mut pixels = from.map_or_else(|| start(data, counts), |fit| Arc::clone(&fit.pixels));
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
-    let mut iterations = if pieces.is_empty() { ITERATIONS } else { ITERATIONS + 2 };
-    loop {
-        let (tangents, columns) = Tangents::new(data, &pixels, &pieces, &[]);
-        let fill = |_: usize, _: usize, _: &Frame| vec![Vec::new()];
-        let visit = |series: Series, whitened: &Whitened| match iterations {
-            0 => series.with(data, whitened),
-            _ => series,
-        };
-        let (gram, series) =
-            Gram::with_blocks(data, &tangents, noise, counts, &[0], &fill, &visit, &Series::and);
-        let projected = gram.project(None);
-        let (theta, sigma) = step(&projected);
-        if iterations == 0 {
-            return Fit {
-                pixels,
-                pieces,
-                columns,
-                sigma,
-                chi2: projected.chi2,
-                samples: gram.samples,
-                jitter_m2: projected.jitter_m2,
-                series,
-            };
-        }
-        iterations -= 1;
-        let own = projected.own(&theta);
-        pixels = Arc::new(moved(&pixels, &own));
-        for (column, step) in columns.iter().zip(theta.iter()) {
-            let piece = &mut pieces[column.piece];
-            let parameter = &piece.effect.parameters[column.parameter];
-            let value = &mut piece.values[column.parameter];
-            // A shape moves by a third of itself at most: its tangent holds nearby.
-            let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
-            *value = (*value + step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
-        }
-        free_shapes(&mut pieces);
+    let iterations = if pieces.is_empty() { ITERATIONS } else { ITERATIONS + 2 };
+    for _ in 0..iterations {
+        (pixels, pieces) = improved(data, &pixels, pieces, noise, counts);
     }
+    let (tangents, columns) = Tangents::new(data, &pixels, &pieces, &[]);
+    let fill = |_: usize, _: usize, _: &Frame| vec![Vec::new()];
+    let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
+    let (gram, series) = Gram::with_blocks(data, &tangents, noise, counts, &[0], &fill, &visit, &Series::and);
+    let projected = gram.project(None);
+    let (_, sigma) = step(&projected);
+    Fit {
+        pixels,
+        pieces,
+        columns,
+        sigma,
+        chi2: projected.chi2,
+        samples: gram.samples,
+        jitter_m2: projected.jitter_m2,
+        series,
+    }
+}
+
+/// One step of Gauss and Newton for the sets of which `counts` is true.
+pub fn improved(
+    data: &Data,
+    pixels: &Arc<Pixels>,
+    mut pieces: Vec<Piece>,
+    noise: Noise,
+    counts: &(dyn Fn(usize) -> bool + Sync),
+) -> (Arc<Pixels>, Vec<Piece>) {
+    let (tangents, columns) = Tangents::new(data, pixels, &pieces, &[]);
+    let projected = Gram::of(data, &tangents, noise, counts).project(None);
+    let (theta, _) = step(&projected);
+    let own = projected.own(&theta);
+    let pixels = Arc::new(moved(pixels, &own));
+    for (column, step) in columns.iter().zip(theta.iter()) {
+        let piece = &mut pieces[column.piece];
+        let parameter = &piece.effect.parameters[column.parameter];
+        let value = &mut piece.values[column.parameter];
+        // A shape moves by a third of itself at most: its tangent holds nearby.
+        let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
+        *value = (*value + step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
+    }
+    free_shapes(&mut pieces);
+    (pixels, pieces)
 }
 
 /// Shapes are fitted where there is something that has one.

@@ -121,7 +121,8 @@ impl Gram {
         counts: &(dyn Fn(usize) -> bool + Sync),
     ) -> Self {
         let fill = |_: usize, _: usize, _: &Frame| vec![Vec::new()];
-        let (gram, ()) = Self::with_blocks(data, tangents, noise, counts, &[0], &fill, &|(), _| (), &|(), ()| ());
+        let (gram, ()) =
+            Self::with_blocks(data, tangents, noise, counts, &[0], &fill, &|(), _| (), &|(), ()| ());
         gram
     }
 
@@ -158,8 +159,14 @@ impl Gram {
                     for index in set * frames..(set + 1) * frames {
                         let frame = tangents.frame(take, index);
                         let (roots, residual) = sums.whiten(data, take, index, &frame, noise);
-                        let whitened =
-                            Whitened { take, set: number, index, frame: &frame, roots: &roots, residual: &residual };
+                        let whitened = Whitened {
+                            take,
+                            set: number,
+                            index,
+                            frame: &frame,
+                            roots: &roots,
+                            residual: &residual,
+                        };
                         sums.add(data, &whitened, &fill(take, index, &frame), tangents.count());
                         visited = visit(visited, &whitened);
                     }
@@ -224,7 +231,11 @@ impl Gram {
             // Rows of one frame, times the root of the weight.
             let mut rows = DMatrix::<f64>::zeros(pixels, active.len() + 1);
             for (place, (_, values)) in active.iter().enumerate() {
-                rows.column_mut(place).iter_mut().zip(roots).zip(*values).for_each(|((row, root), value)| *row = root * value);
+                rows.column_mut(place)
+                    .iter_mut()
+                    .zip(roots)
+                    .zip(*values)
+                    .for_each(|((row, root), value)| *row = root * value);
             }
             rows.column_mut(active.len()).copy_from_slice(residual);
             let numbers: Vec<usize> = active.iter().map(|(number, _)| *number).chain([last]).collect();

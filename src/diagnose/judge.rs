@@ -60,6 +60,8 @@ pub struct Judgement {
     pub named: Vec<Named>,
     /// Of the mismatch, the share that the named effects leave.
     pub remainder: f64,
+    /// A random effect, and its standard deviation.
+    pub random: Option<(&'static str, f64)>,
     /// The search behind it.
     pub found: Found,
     /// The fit that is asserted: the baseline where nothing is.
@@ -97,11 +99,19 @@ pub fn judge(data: &Data, stated: Noise) -> Judgement {
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let random = left.first().filter(|_| named.is_empty()).and_then(|_| random_effect(data, &end));
+    let mut strength = None;
     let verdict = if let Some((name, cluster)) = random.filter(|_| excess.is_none()) {
-        named = vec![Named { name, ln_bayes: cluster.ln_bayes, score: (2.0 * cluster.ln_bayes, 1), rivals: Vec::new() }];
+        strength = Some((name, cluster.sigma));
+        named = vec![Named {
+            name,
+            ln_bayes: cluster.ln_bayes,
+            score: (2.0 * cluster.ln_bayes, 1),
+            rivals: Vec::new(),
+        }];
         Verdict::Explained
     } else if named.is_empty() && excess.as_ref().is_some_and(|excess| excess.mode == 1) && left.is_empty() {
         let ln_bayes = excess.map_or(0.0, |excess| excess.ln_bayes);
+        strength = excess.map(|excess| ("excess_noise", excess.sigma));
         named.push(Named { name: "excess_noise", ln_bayes, score: (2.0 * ln_bayes, 1), rivals: Vec::new() });
         Verdict::Explained
     } else if named.is_empty() {
@@ -118,7 +128,7 @@ pub fn judge(data: &Data, stated: Noise) -> Judgement {
         places.clear();
     }
     let fit = if named.is_empty() { found.baseline.clone() } else { found.fit.clone() };
-    Judgement { verdict, places, left, named, remainder, found, fit, noise }
+    Judgement { verdict, places, left, named, remainder, random: strength, found, fit, noise }
 }
 
 /// Noise that pixels do not share, beyond what was stated.
@@ -131,7 +141,8 @@ fn noise_excess(data: &Data, location: &Location) -> Option<Cluster> {
 fn is_real(data: &Data, cluster: &Cluster) -> bool {
     let metre_rad = data.takes.first().and_then(|take| take.moments.first());
     let metre_rad = metre_rad.map_or(1.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
-    let usual = cluster.level == Level::Set && cluster.mode == 2 && cluster.sigma < USUAL_JITTER_M * metre_rad;
+    let usual =
+        cluster.level == Level::Set && cluster.mode == 2 && cluster.sigma < USUAL_JITTER_M * metre_rad;
     cluster.ln_bayes > CLUSTER_NATS && !usual
 }
 
@@ -168,7 +179,12 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
     if let Some(cluster) = clusters.first() {
         let place = Place {
             coordinate: coordinate(cluster),
-            shape: format!("random {} of {:.3e}, common to a {}", MODES[cluster.mode], cluster.sigma, common(cluster)),
+            shape: format!(
+                "random {} of {:.3e}, common to a {}",
+                MODES[cluster.mode],
+                cluster.sigma,
+                common(cluster)
+            ),
             ln_bayes: cluster.ln_bayes,
             chi2: (2.0 * cluster.ln_bayes, 1),
             take: cluster.take,

@@ -148,7 +148,8 @@ mod tests {
     #[test]
     fn a_line_is_found_among_gaps() {
         let at = |n: usize| 0.025 * n as f64 + 0.175 * (n / 4) as f64;
-        let group: Vec<(f64, Sum)> = (0..400).map(|n| (at(n), ((TAU * 103.1 * at(n) + 1.0).sin(), 1.0))).collect();
+        let group: Vec<(f64, Sum)> =
+            (0..400).map(|n| (at(n), ((TAU * 103.1 * at(n) + 1.0).sin(), 1.0))).collect();
         let line = strongest(&[group], (90.0, 112.0)).unwrap();
         assert!((line.frequency - 103.1).abs() < 0.01, "{line:?}");
         assert!((line.chi2 - 200.0).abs() < 10.0, "{line:?}");

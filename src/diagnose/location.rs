@@ -70,8 +70,14 @@ fn evidence(mut projected: Projected, fitted: usize, size: usize) -> (f64, (f64,
     projected.give_way(fitted);
     let block = Block { candidate: 0, variant: 0, variants: 1.0, columns: (fitted..fitted + size).collect() };
     let blocks = [block];
-    let evidence =
-        Evidence::new(&projected.matrix, &projected.vector, &projected.raw, &|_| f64::INFINITY, &blocks, COORDINATES.len());
+    let evidence = Evidence::new(
+        &projected.matrix,
+        &projected.vector,
+        &projected.raw,
+        &|_| f64::INFINITY,
+        &blocks,
+        COORDINATES.len(),
+    );
     let alone = |column: usize| {
         let information = projected.matrix[(column, column)];
         let seen = information > super::evidence::VISIBLE * projected.raw[column] && information > 0.0;

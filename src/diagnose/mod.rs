@@ -7,18 +7,22 @@ mod data;
 mod evidence;
 mod fit;
 mod gram;
+mod held_out;
 mod judge;
 mod lines;
 mod location;
 mod pieces;
 mod search;
+mod verdict;
 
 pub use data::{Data, Take};
 pub use fit::Fit;
 pub use gram::Noise;
+pub use held_out::{Agreement, HeldOut};
 pub use judge::{Judgement, Place, Verdict, judge};
 pub use location::{Located, Location, locate};
 pub use search::{Found, Named, search};
+pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, diagnose, word};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise.
 pub fn stated_noise(data: &Data) -> Noise {

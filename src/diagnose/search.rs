@@ -84,7 +84,9 @@ fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter:
     projected.give_way(base.columns.len());
     let reach = |column: usize| {
         let (number, parameter) = parameters[column];
-        candidates.get(number).map_or(f64::INFINITY, |candidate| candidate.effect.parameters[parameter].reach())
+        candidates
+            .get(number)
+            .map_or(f64::INFINITY, |candidate| candidate.effect.parameters[parameter].reach())
     };
     let evidence = Evidence::new(
         &projected.matrix,
@@ -176,7 +178,8 @@ pub fn search(data: &Data, noise: Noise) -> Found {
 impl Pass {
     /// The model to be fitted next, beside those that are named.
     fn next(&self, named: &[Named]) -> Option<Model> {
-        let explained = |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
+        let explained =
+            |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
         let enough = |model: &&Model| {
             model.ln_bayes > THRESHOLD
                 && model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max) > tolerated(named)

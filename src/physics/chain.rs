@@ -38,6 +38,23 @@ impl Chain {
         exposure
     }
 
+    /// The frame at `moment` as it is when each place has been passed, in the order of [`Place::ALL`].
+    pub fn stations(&self, moment: Moment, memory: Memory) -> Vec<Exposure> {
+        let mut exposure = self.begin(moment, memory);
+        let station = |place: Place| {
+            self.run_between(&mut exposure, place, place);
+            exposure.clone()
+        };
+        Place::ALL.into_iter().map(station).collect()
+    }
+
+    /// Takes `exposure`, which has passed `last`, to the end of the chain.
+    pub fn resume(&self, exposure: &mut Exposure, last: Place) {
+        if let Some(next) = Place::ALL.into_iter().find(|place| *place > last) {
+            self.run(exposure, next);
+        }
+    }
+
     fn begin(&self, moment: Moment, memory: Memory) -> Exposure {
         let Memory { before_dn, deviates, pixel_deviates } = memory;
         let exposure = Exposure::new(moment, &self.pixels, self.included, &self.correlation);

@@ -48,7 +48,7 @@ pub struct Included {
 }
 
 /// A frame in the making. Effects change what stands here when their place comes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Exposure {
     /// When and how it is taken; effects do not change this.
     pub moment: Moment,

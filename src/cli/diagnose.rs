@@ -1,0 +1,58 @@
+//! `vuris diagnose`
+
+use super::campaign::recordings_in;
+use super::print::{counted, say};
+use super::progress;
+use crate::artifact::write_file;
+use crate::diagnose::{Data, Diagnosis, diagnose};
+use crate::problem::{Problem, Result};
+use crate::recording::Recording;
+use crate::report::diagnosis_text;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Find where recordings and simulation disagree, and name the physics that the simulation leaves out
+#[derive(Debug, Args)]
+pub(super) struct Diagnose {
+    /// Campaigns, or single recordings
+    #[arg(required = true, value_name = "CAMPAIGN")]
+    campaigns: Vec<PathBuf>,
+    /// Write the verdict as JSON; `-` for standard output
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+impl Diagnose {
+    pub(super) fn run(self) -> Result<ExitCode> {
+        if self.campaigns.len() > 1 && self.json.is_some() {
+            return Err(Problem::at("--json", counted(self.campaigns.len(), "campaign"))
+                .expected("one campaign for one file")
+                .remedy("diagnose them one by one"));
+        }
+        for campaign in &self.campaigns {
+            let data = read(campaign)?;
+            let what = format!("diagnosing {}", campaign.display());
+            let diagnosis: Diagnosis = progress::during(what, || diagnose(&data));
+            let text = serde_json::to_string_pretty(&diagnosis.answer)
+                .map_err(|error| Problem::at("the verdict", error))?;
+            match &self.json {
+                Some(file) if file == Path::new("-") => say!("{text}"),
+                Some(file) => {
+                    write_file(file, &format!("{text}\n"))?;
+                    say!("{}", diagnosis_text(campaign, &diagnosis));
+                    say!("written: {}", file.display());
+                }
+                None => say!("{}", diagnosis_text(campaign, &diagnosis)),
+            }
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// The recordings in `campaign`.
+fn read(campaign: &Path) -> Result<Data> {
+    let recordings: Vec<Recording> =
+        recordings_in(campaign)?.iter().map(|folder| Recording::open(folder)).collect::<Result<_>>()?;
+    Data::of(&recordings)
+}

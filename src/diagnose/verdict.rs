@@ -1,0 +1,323 @@
+//! The answer as other programs read it: `vuris-verdict/1`.
+
+use super::data::Data;
+use super::held_out::{HeldOut, held_out};
+use super::judge::{Judgement, Place, Verdict, judge};
+use super::pieces::Piece;
+use super::search::Named;
+use super::stated_noise;
+use crate::physics::effects;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// A diagnosis: the judgement, and how it fares on sets that it has not seen.
+#[derive(Debug)]
+pub struct Diagnosis {
+    /// The judgement.
+    pub judgement: Judgement,
+    /// The prediction of sets that were held out.
+    pub held_out: HeldOut,
+    /// The answer.
+    pub answer: Answer,
+}
+
+/// The answer, in the order of its file.
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct Answer {
+    pub format: &'static str,
+    pub verdict: &'static str,
+    pub probability_of_mismatch: f64,
+    pub located: Vec<LocatedRow>,
+    pub effects: Vec<EffectRow>,
+    pub ruled_out: Vec<RuledOut>,
+    pub held_out: HeldOutRow,
+    pub remainder: Remainder,
+    pub next_recording: Vec<NextRecording>,
+    pub invisible: Vec<Invisible>,
+    pub smallest_detectable: Vec<Smallest>,
+    pub provenance: Value,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct LocatedRow {
+    pub coordinate: &'static str,
+    pub recording: String,
+    pub shape: String,
+    pub p: f64,
+    pub rms_dn: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct EffectRow {
+    pub name: &'static str,
+    pub sentence: String,
+    pub probability: f64,
+    pub also_possible: Vec<String>,
+    pub parameters: Vec<ParameterRow>,
+    pub evidence: EvidenceRow,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct ParameterRow {
+    pub name: String,
+    pub value: f64,
+    pub sigma: f64,
+    pub unit: &'static str,
+}
+
+#[derive(Debug, Clone, Copy, Serialize)]
+#[allow(missing_docs)]
+pub struct EvidenceRow {
+    pub delta_chi2: f64,
+    pub degrees_of_freedom: usize,
+    pub ln_bayes_factor: f64,
+    pub detectability_rho: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct RuledOut {
+    pub name: &'static str,
+    pub by: String,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct HeldOutRow {
+    pub chi2_per_dof_before: f64,
+    pub chi2_per_dof_after: f64,
+    pub rms_dn_before: f64,
+    pub rms_dn_after: f64,
+    pub distance_rms_m_before: f64,
+    pub distance_rms_m_after: f64,
+    pub z: f64,
+    pub sets: usize,
+    pub by_frames: Vec<Value>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct Remainder {
+    pub share: f64,
+    pub coordinate: Option<&'static str>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct NextRecording {
+    pub to_separate: Vec<String>,
+    pub what: String,
+    pub expected_rho: f64,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct Invisible {
+    pub name: &'static str,
+    pub why: String,
+}
+
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct Smallest {
+    pub name: &'static str,
+    pub parameter: &'static str,
+    pub value: f64,
+    pub unit: &'static str,
+}
+
+/// Diagnoses `data`.
+pub fn diagnose(data: &Data) -> Diagnosis {
+    let judgement = judge(data, stated_noise(data));
+    let held_out = held_out(data, &judgement.found.baseline, &judgement.fit, judgement.noise);
+    let answer = answer(data, &judgement, &held_out);
+    Diagnosis { judgement, held_out, answer }
+}
+
+/// The verdict's word.
+pub fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Clean => "clean",
+        Verdict::Explained => "explained",
+        Verdict::PartlyExplained => "partly_explained",
+        Verdict::Unexplained => "unexplained",
+    }
+}
+
+fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
+    let Judgement { verdict, found, named, .. } = judgement;
+    let best_alone = found.alone.iter().map(|alone| alone.3).fold(f64::NEG_INFINITY, f64::max);
+    let nats = judgement.places.iter().map(|place| place.ln_bayes).fold(best_alone, f64::max);
+    let nats = named.iter().map(|named| named.ln_bayes).fold(nats, f64::max);
+    let is_clean = *verdict == Verdict::Clean;
+    let seen = |place: &Place| located(data, judgement, place);
+    let smallest = found.detectable.iter().filter_map(|&(name, parameter, value)| {
+        let parameter = effects::named(name)?.parameters.get(parameter)?;
+        Some(Smallest { name, parameter: parameter.name, value: rounded(value), unit: parameter.unit })
+    });
+    Answer {
+        format: "vuris-verdict/1",
+        verdict: word(*verdict),
+        probability_of_mismatch: 1.0 / (1.0 + (-nats).exp()),
+        located: if is_clean { Vec::new() } else { judgement.places.iter().map(seen).collect() },
+        effects: named.iter().map(|named| effect_row(data, judgement, named)).collect(),
+        ruled_out: ruled_out(judgement),
+        held_out: HeldOutRow {
+            chi2_per_dof_before: held_out.before.chi2_per_dof,
+            chi2_per_dof_after: held_out.after.chi2_per_dof,
+            rms_dn_before: held_out.before.rms_dn,
+            rms_dn_after: held_out.after.rms_dn,
+            distance_rms_m_before: held_out.before.distance_rms_m,
+            distance_rms_m_after: held_out.after.distance_rms_m,
+            z: held_out.z,
+            sets: held_out.sets,
+            by_frames: held_out
+                .by_frames
+                .iter()
+                .map(|(frames, before, after)| {
+                    json!({"frames": frames, "distance_rms_m_before": before, "distance_rms_m_after": after})
+                })
+                .collect(),
+        },
+        remainder: Remainder {
+            share: judgement.remainder,
+            coordinate: judgement.left.first().filter(|_| !is_clean).map(|place| place.coordinate),
+        },
+        next_recording: Vec::new(),
+        invisible: found.invisible.iter().map(|&name| invisible(name)).collect(),
+        smallest_detectable: smallest.collect(),
+        provenance: json!({
+            "program": concat!("vuris ", env!("CARGO_PKG_VERSION")),
+            "recordings": data.takes.iter().map(|take| take.name.clone()).collect::<Vec<_>>(),
+            "samples": found.baseline.samples,
+            "noise": {"floor_dn2": judgement.noise.floor, "slope_dn": judgement.noise.slope,
+                      "relative_squared": judgement.noise.square},
+            "encoder_sigma_m": judgement.fit.jitter_m2.sqrt(),
+        }),
+    }
+}
+
+fn invisible(name: &'static str) -> Invisible {
+    let why = "on these recordings it changes nothing that the pixels' own amplitude, phase, constant and ambient light do not absorb";
+    Invisible { name, why: why.to_owned() }
+}
+
+fn located(data: &Data, judgement: &Judgement, place: &Place) -> LocatedRow {
+    let (chi2, columns) = place.chi2;
+    let samples = judgement.found.baseline.samples.max(1) as f64;
+    let variance = judgement.noise.floor + judgement.noise.slope * data.typical_signal_dn();
+    LocatedRow {
+        coordinate: place.coordinate,
+        recording: data.takes.get(place.take).map_or_else(String::new, |take| take.name.clone()),
+        shape: place.shape.clone(),
+        p: tail(chi2, columns),
+        rms_dn: rounded(((chi2 - columns as f64).max(0.0) / samples * variance).sqrt()),
+    }
+}
+
+/// Probability that chi squared of `degrees` is greater than `chi2`, by Wilson and Hilferty (1931) and the normal tail.
+fn tail(chi2: f64, degrees: usize) -> f64 {
+    let n = degrees.max(1) as f64;
+    let z = ((chi2 / n).cbrt() - (1.0 - 2.0 / (9.0 * n))) / (2.0 / (9.0 * n)).sqrt();
+    (0.5 * libm::erfc(z / std::f64::consts::SQRT_2)).clamp(0.0, 1.0)
+}
+
+fn rounded(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
+}
+
+fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
+    let sentence = effects::named(named.name).map_or("", |effect| effect.sentence);
+    let names: Vec<&str> = judgement.named.iter().map(|named| named.name).collect();
+    let mut also_possible: Vec<String> = Vec::new();
+    for rival in &named.rivals {
+        for name in rival.split(" + ").filter(|name| !names.contains(name)) {
+            if !also_possible.iter().any(|known| known == name) {
+                also_possible.push(name.to_owned());
+            }
+        }
+    }
+    let (chi2, degrees_of_freedom) = named.score;
+    // Rivals are within a few nats; everything else together has what the threshold leaves.
+    let rivals = named.rivals.len() as f64 * (-1.5f64).exp();
+    let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp());
+    EffectRow {
+        name: named.name,
+        sentence: sentence.to_owned(),
+        probability,
+        also_possible,
+        parameters: parameters(data, judgement, named.name),
+        evidence: EvidenceRow {
+            delta_chi2: chi2,
+            degrees_of_freedom,
+            ln_bayes_factor: named.ln_bayes,
+            detectability_rho: (chi2 - degrees_of_freedom as f64).max(0.0).sqrt(),
+        },
+    }
+}
+
+/// The fitted values of the effect called `name`, piece by piece.
+fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRow> {
+    let fit = &judgement.fit;
+    let of = |piece: &&Piece| piece.effect.name == name;
+    let several = fit.pieces.iter().filter(of).count() > 1;
+    let mut rows = Vec::new();
+    for (number, piece) in fit.pieces.iter().enumerate().filter(|(_, piece)| of(piece)) {
+        let takes: Vec<&str> = piece.takes.iter().map(|&take| data.takes[take].name.as_str()).collect();
+        let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
+        for (parameter, known) in piece.effect.parameters.iter().enumerate() {
+            let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
+            let sigma = column.map_or(0.0, |column| fit.sigma[column]);
+            if column.is_none() && !known.is_shape() {
+                continue;
+            }
+            rows.push(ParameterRow {
+                name: format!("{}{suffix}", known.name),
+                value: piece.values[parameter],
+                sigma: if sigma.is_finite() { sigma } else { 0.0 },
+                unit: known.unit,
+            });
+        }
+    }
+    if rows.is_empty() {
+        // A random effect is not fitted: its strength is the cluster's.
+        let cluster = judgement.random.filter(|(random, _)| *random == name);
+        let parameter = effects::named(name).and_then(|effect| effect.parameters.first());
+        rows.extend(cluster.zip(parameter).map(|((_, sigma), parameter)| ParameterRow {
+            name: parameter.name.to_owned(),
+            value: sigma,
+            sigma: 0.2 * sigma,
+            unit: parameter.unit,
+        }));
+    }
+    rows
+}
+
+/// Every other candidate, and what speaks against it.
+fn ruled_out(judgement: &Judgement) -> Vec<RuledOut> {
+    let Judgement { found, named, verdict, .. } = judgement;
+    let best = found.alone.iter().map(|alone| alone.1).fold(0.0, f64::max);
+    let others = found.alone.iter().filter(|alone| {
+        !named.iter().any(|named| {
+            named.name == alone.0 || named.rivals.iter().any(|r| r.split(" + ").any(|n| n == alone.0))
+        })
+    });
+    others
+        .filter(|alone| !found.invisible.contains(&alone.0))
+        .map(|&(name, chi2, degrees, nats)| {
+            let by = if *verdict == Verdict::Clean || nats < 0.0 {
+                format!("no trace: chi squared {chi2:.1} for {degrees} numbers")
+            } else {
+                format!(
+                    "alone it takes {:.0} % of what is best, and leaves the rest",
+                    100.0 * chi2 / best.max(1.0)
+                )
+            };
+            RuledOut { name, by }
+        })
+        .collect()
+}

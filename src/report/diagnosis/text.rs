@@ -1,0 +1,83 @@
+//! A diagnosis in a screenful.
+
+use crate::diagnose::{Answer, Diagnosis, EffectRow};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Lines that a list may take.
+const MOST: usize = 4;
+
+/// What `diagnosis` says of `campaign`, in a screenful.
+pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
+    let answer = &diagnosis.answer;
+    let mut text = format!("{}: {}\n\n", campaign.display(), answer.verdict.replace('_', " "));
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{}\n", paragraph(answer));
+    if !answer.located.is_empty() {
+        text += "Where:\n";
+        for row in answer.located.iter().take(MOST) {
+            let _ = writeln!(
+                text,
+                "  {:<13} {} (p {:.1e}, {:.2} DN RMS, most in {})",
+                row.coordinate, row.shape, row.p, row.rms_dn, row.recording
+            );
+        }
+    }
+    for effect in &answer.effects {
+        let _ = writeln!(text, "{}:", effect.name);
+        for row in effect.parameters.iter().take(3 * MOST) {
+            let unit = if row.unit == "1" { String::new() } else { format!(" {}", row.unit) };
+            let _ = writeln!(text, "  {} = {:.6} \u{b1} {:.2e}{unit}", row.name, row.value, row.sigma);
+        }
+        if !effect.also_possible.is_empty() {
+            let _ = writeln!(text, "  cannot be told apart here from {}", effect.also_possible.join(", "));
+        }
+    }
+    let held = &answer.held_out;
+    let _ = writeln!(
+        text,
+        "On {} sets that the fit has not seen: chi squared a sample {:.4} -> {:.4} (z {:.1}), raw frames {:.3} -> {:.3} DN RMS,\n  \
+         distance of a set {:.2} -> {:.2} mm RMS",
+        held.sets,
+        held.chi2_per_dof_before,
+        held.chi2_per_dof_after,
+        held.z,
+        held.rms_dn_before,
+        held.rms_dn_after,
+        1e3 * held.distance_rms_m_before,
+        1e3 * held.distance_rms_m_after
+    );
+    if let Some(coordinate) = answer.remainder.coordinate {
+        let share = 100.0 * answer.remainder.share;
+        let _ = writeln!(text, "Left: {share:.1} % of the mismatch, most of it over {coordinate}");
+    }
+    for next in &answer.next_recording {
+        let _ = writeln!(
+            text,
+            "To separate {}: {} (expected {:.0} standard deviations)",
+            next.to_separate.join(" from "),
+            next.what,
+            next.expected_rho
+        );
+    }
+    if !answer.invisible.is_empty() {
+        let names: Vec<&str> = answer.invisible.iter().map(|row| row.name).collect();
+        let _ = writeln!(text, "These recordings cannot show: {}", names.join(", "));
+    }
+    text
+}
+
+fn paragraph(answer: &Answer) -> String {
+    let names = |effects: &[EffectRow]| {
+        effects.iter().map(|effect| effect.sentence.clone()).collect::<Vec<_>>().join(" ")
+    };
+    let place = answer.located.first().map_or("none", |row| row.coordinate);
+    match answer.verdict {
+        "clean" => "Simulation and recordings agree within the noise.".to_owned(),
+        "unexplained" => format!(
+            "The recordings differ from the simulation, over {place}, and no effect that is known here explains it."
+        ),
+        "partly_explained" => format!("{} Something else is left.", names(&answer.effects)),
+        _ => names(&answer.effects),
+    }
+}
