@@ -164,7 +164,7 @@ impl<'a> Tangents<'a> {
                 let station = &stations[more.effect.place as usize];
                 let mut exposure = station.clone();
                 (more.effect.act)(&more.values, &mut exposure);
-                if exposure == *station {
+                if exposure.stands_as(station) {
                     return Vec::new();
                 }
                 chains.base.resume(&mut exposure, more.effect.place);

@@ -5,7 +5,7 @@
 use super::columns::{Frame, OWN};
 use super::data::Data;
 use crate::frames::Geometry;
-use crate::physics::{Moment, Pixels};
+use crate::physics::{Moment, Pixels, cos_sin};
 use crate::units::phase_rad;
 use std::f64::consts::TAU;
 
@@ -304,9 +304,12 @@ fn phase(view: &View) -> Vec<(usize, Vec<f64>)> {
         let phase =
             phase_rad(range_m, moment.frequency_hz) + view.pixels.phase_rad[pixel] - moment.offset_rad;
         let angle = moment.step_rad - phase;
+        let (once, wave_once) = (cos_sin(phase), cos_sin(angle));
+        let (mut turned, mut wave) = ((1.0, 0.0), wave_once);
         for cycles in 1..=CYCLES {
-            let (sine, cosine) = (cycles as f64 * phase).sin_cos();
-            let (wave_sine, wave_cosine) = ((cycles + 1) as f64 * angle).sin_cos();
+            // cos(k a) and sin(k a) from those of (k − 1) a.
+            (turned, wave) = (further(turned, once), further(wave, wave_once));
+            let ((cosine, sine), (wave_cosine, wave_sine)) = (turned, wave);
             let at = 6 * (cycles - 1);
             columns[at][pixel] = cosine * view.frame.own[1][pixel];
             columns[at + 1][pixel] = sine * view.frame.own[1][pixel];
@@ -317,6 +320,10 @@ fn phase(view: &View) -> Vec<(usize, Vec<f64>)> {
         }
     }
     columns.into_iter().enumerate().collect()
+}
+
+fn further((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> (f64, f64) {
+    (c * cosine - s * sine, s * cosine + c * sine)
 }
 
 fn phase_shape(_: &Ranges, column: usize) -> String {
@@ -361,7 +368,7 @@ fn code(view: &View) -> Vec<(usize, Vec<f64>)> {
             columns[hat][pixel] = value;
         }
         for (number, period) in PATTERNS.iter().enumerate() {
-            let (sine, cosine) = (TAU * (signal + view.pixels.pedestal_dn) / period).sin_cos();
+            let (cosine, sine) = cos_sin(TAU * (signal + view.pixels.pedestal_dn) / period);
             columns[CODES + 2 * number][pixel] = cosine;
             columns[CODES + 2 * number + 1][pixel] = sine;
         }

@@ -2,7 +2,7 @@
 
 use super::columns::{Frame, OWN, Tangents};
 use super::data::Data;
-use nalgebra::{DMatrix, DVector, Matrix4, Matrix4xX, Vector4};
+use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
 
 /// Sums over all samples, weighted by the noise.
@@ -13,7 +13,7 @@ pub struct Gram {
     /// A set's position against itself.
     square: Vec<f64>,
     /// A set's position against the pixels' own numbers.
-    position_own: Vec<Vec<Vector4<f32>>>,
+    position_own: Vec<Vec<f32>>,
     /// Columns that are solved together, each block by itself.
     blocks: Vec<Block>,
     /// Sum of squares of the whitened residual, and samples.
@@ -27,8 +27,8 @@ pub struct Gram {
 struct Block {
     /// G' W G.
     full: DMatrix<f64>,
-    /// The pixels' own numbers against columns and residual, `[pixel]`: 4 x (columns + 1).
-    mixed: Vec<Matrix4xX<f64>>,
+    /// The pixels' own numbers against columns and residual: (4 x pixels) x (columns + 1).
+    mixed: DMatrix<f64>,
     /// A set's position against columns and residual.
     position: Vec<DVector<f64>>,
 }
@@ -78,7 +78,7 @@ impl Gram {
     fn empty(pixels: usize, columns: &[usize], sets: usize) -> Self {
         let block = |&columns: &usize| Block {
             full: DMatrix::zeros(columns + 1, columns + 1),
-            mixed: vec![Matrix4xX::zeros(columns + 1); pixels],
+            mixed: DMatrix::zeros(OWN * pixels, columns + 1),
             position: vec![DVector::zeros(0); sets],
         };
         Self {
@@ -101,7 +101,7 @@ impl Gram {
         }
         for (block, other) in self.blocks.iter_mut().zip(other.blocks) {
             block.full += other.full;
-            block.mixed.iter_mut().zip(other.mixed).for_each(|(a, b)| *a += b);
+            block.mixed += other.mixed;
             for (a, b) in block.position.iter_mut().zip(other.position) {
                 if a.is_empty() {
                     *a = b;
@@ -151,7 +151,7 @@ impl Gram {
                 let mut sums = Self::empty(pixels, &columns, count);
                 let mut visited = T::default();
                 for &(number, (take, set)) in chunk {
-                    sums.position_own[number] = vec![Vector4::zeros(); pixels];
+                    sums.position_own[number] = vec![0.0; OWN * pixels];
                     for (block, columns) in sums.blocks.iter_mut().zip(&columns) {
                         block.position[number] = DVector::zeros(columns + 1);
                     }
@@ -217,7 +217,8 @@ impl Gram {
             self.own[pixel] += own[pixel] * own[pixel].transpose();
             position[pixel] = root * frame.position[pixel];
             if position[pixel] != 0.0 {
-                self.position_own[set][pixel] += (own[pixel] * position[pixel]).cast::<f32>();
+                let sums = &mut self.position_own[set][OWN * pixel..];
+                sums.iter_mut().zip(own[pixel].iter()).for_each(|(sum, own)| *sum += (own * position[pixel]) as f32);
                 self.square[set] += position[pixel] * position[pixel];
             }
         }
@@ -239,8 +240,9 @@ impl Gram {
             }
             rows.column_mut(active.len()).copy_from_slice(residual);
             let numbers: Vec<usize> = active.iter().map(|(number, _)| *number).chain([last]).collect();
-            let product = rows.tr_mul(&rows);
-            let along = rows.tr_mul(&position);
+            let turned = rows.transpose();
+            let product = &turned * &rows;
+            let along = turned * &position;
             for (a, &row) in numbers.iter().enumerate() {
                 for (b, &column) in numbers.iter().enumerate() {
                     block.full[(row, column)] += product[(a, b)];
@@ -248,13 +250,10 @@ impl Gram {
                 block.position[set][row] += along[a];
             }
             for (a, &column) in numbers.iter().enumerate() {
-                let values = rows.column(a);
-                for (pixel, own) in own.iter().enumerate() {
-                    let value = values[pixel];
-                    if value != 0.0 {
-                        let mut sums = block.mixed[pixel].fixed_view_mut::<OWN, 1>(0, column);
-                        sums += own * value;
-                    }
+                let (values, mut sums) = (rows.column(a), block.mixed.column_mut(column));
+                let sums = sums.as_mut_slice().chunks_exact_mut(OWN);
+                for ((sum, own), value) in sums.zip(&own).zip(values.iter()) {
+                    sum.iter_mut().zip(own.iter()).for_each(|(sum, own)| *sum += own * value);
                 }
             }
         }
@@ -275,22 +274,26 @@ impl Gram {
 
     fn project_block(&self, block: &Block, inverses: &[Matrix4<f64>], jitter_m2: Option<f64>) -> Projected {
         let size = block.full.nrows();
-        let solved: Vec<Matrix4xX<f64>> =
-            block.mixed.iter().zip(inverses).map(|(mixed, inverse)| inverse * mixed).collect();
-        let mut full = block.full.clone();
-        for (mixed, solved) in block.mixed.iter().zip(&solved) {
-            full.gemm_tr(-1.0, mixed, solved, 1.0);
-        }
-        let mut sets = Vec::new();
-        for ((sums, square), own) in block.position.iter().zip(&self.square).zip(&self.position_own) {
-            let (mut sums, mut square) = (sums.clone(), *square);
-            for (pixel, own) in own.iter().enumerate().filter(|(_, own)| own.norm_squared() > 0.0) {
-                let own = own.cast::<f64>();
-                sums.gemv_tr(-1.0, &solved[pixel], &own, 1.0);
-                square -= own.dot(&(inverses[pixel] * own));
+        let mut solved = block.mixed.clone();
+        for mut column in solved.column_iter_mut() {
+            for (own, inverse) in column.as_mut_slice().chunks_exact_mut(OWN).zip(inverses) {
+                let values = inverse * Vector4::from_column_slice(own);
+                own.copy_from_slice(values.as_slice());
             }
-            if square > 0.0 {
-                sets.push((sums, square));
+        }
+        let mut full = &block.full - block.mixed.transpose() * &solved;
+        let mut sets = Vec::new();
+        let turned = solved.transpose();
+        for ((sums, square), own) in block.position.iter().zip(&self.square).zip(&self.position_own) {
+            if sums.is_empty() || own.is_empty() {
+                continue;
+            }
+            let own = DVector::from_iterator(own.len(), own.iter().map(|&own| f64::from(own)));
+            let sums = sums - &turned * &own;
+            let own = own.as_slice().chunks_exact(OWN).map(Vector4::from_column_slice);
+            let absorbed: f64 = own.zip(inverses).map(|(own, inverse)| own.dot(&(inverse * own))).sum();
+            if square - absorbed > 0.0 {
+                sets.push((sums, square - absorbed));
             }
         }
         let residual = size - 1;
@@ -360,21 +363,15 @@ pub struct Projected {
     pub jitter_m2: f64,
     /// Chi squared after the projection.
     pub chi2: f64,
-    /// Change of the pixels' own numbers a unit of each column, and, last, by the residual.
-    solved: Vec<Matrix4xX<f64>>,
+    /// Change of the pixels' own numbers a unit of each column, and, last, by the residual: (4 x pixels) x (columns + 1).
+    solved: DMatrix<f64>,
 }
 
 impl Projected {
     /// How the pixels' own numbers move with a step `theta` of the columns.
     pub fn own(&self, theta: &DVector<f64>) -> Vec<Vector4<f64>> {
         let last = theta.len();
-        let step = |solved: &Matrix4xX<f64>| {
-            let mut own = Vector4::from_iterator(solved.column(last).iter().copied());
-            for (column, value) in theta.iter().enumerate() {
-                own -= *value * Vector4::from_iterator(solved.column(column).iter().copied());
-            }
-            own
-        };
-        self.solved.iter().map(step).collect()
+        let own = self.solved.column(last) - self.solved.columns(0, last) * theta;
+        own.as_slice().chunks_exact(OWN).map(Vector4::from_column_slice).collect()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::data::Data;
 use super::gram::Whitened;
+use crate::physics::cos_sin;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -119,7 +120,7 @@ fn power(group: &[(f64, Sum)], frequency: f64) -> f64 {
     let (mut c, mut s, mut cc, mut ss, mut cs) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for &(at, (score, information)) in group {
         let turns = at * frequency;
-        let (sine, cosine) = (TAU * (turns - turns.floor())).sin_cos();
+        let (cosine, sine) = cos_sin(TAU * (turns - turns.floor()));
         c += score * cosine;
         s += score * sine;
         cc += information * cosine * cosine;

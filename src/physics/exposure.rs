@@ -48,7 +48,7 @@ pub struct Included {
 }
 
 /// A frame in the making. Effects change what stands here when their place comes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Exposure {
     /// When and how it is taken; effects do not change this.
     pub moment: Moment,
@@ -123,6 +123,21 @@ impl Exposure {
             deviate: 0.0,
             pixel_deviates: Vec::new(),
         }
+    }
+
+    /// Whether `other` stands where this one stands: what effects change is the same in both.
+    pub fn stands_as(&self, other: &Self) -> bool {
+        let scalars = |e: &Self| {
+            [e.position_m, e.velocity_m_s, e.in_set_s, e.motion_share, e.falloff_share, e.frequency_hz, e.angle_rad]
+        };
+        scalars(self) == scalars(other)
+            && self.range_m == other.range_m
+            && self.phase_rad == other.phase_rad
+            && self.amplitude_dn == other.amplitude_dn
+            && self.constant_dn == other.constant_dn
+            && self.ambient_dn == other.ambient_dn
+            && self.correlation == other.correlation
+            && self.signal_dn == other.signal_dn
     }
 
     /// The target's way since the set's start, m.
