@@ -7,7 +7,7 @@ use crate::artifact::write_file;
 use crate::diagnose::{Data, Diagnosis, diagnose};
 use crate::problem::{Problem, Result};
 use crate::recording::Recording;
-use crate::report::diagnosis_text;
+use crate::report::{diagnosis_page, diagnosis_text};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -21,12 +21,15 @@ pub(super) struct Diagnose {
     /// Write the verdict as JSON; `-` for standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write a page with maps, curves and the evidence
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
 }
 
 impl Diagnose {
     pub(super) fn run(self) -> Result<ExitCode> {
-        if self.campaigns.len() > 1 && self.json.is_some() {
-            return Err(Problem::at("--json", counted(self.campaigns.len(), "campaign"))
+        if self.campaigns.len() > 1 && (self.json.is_some() || self.report.is_some()) {
+            return Err(Problem::at("--json and --report", counted(self.campaigns.len(), "campaign"))
                 .expected("one campaign for one file")
                 .remedy("diagnose them one by one"));
         }
@@ -36,6 +39,9 @@ impl Diagnose {
             let diagnosis: Diagnosis = progress::during(what, || diagnose(&data));
             let text = serde_json::to_string_pretty(&diagnosis.answer)
                 .map_err(|error| Problem::at("the verdict", error))?;
+            if let Some(file) = &self.report {
+                write_file(file, &diagnosis_page(campaign, &diagnosis, data.geometry())?)?;
+            }
             match &self.json {
                 Some(file) if file == Path::new("-") => say!("{text}"),
                 Some(file) => {

@@ -28,6 +28,8 @@ pub struct Data {
     pub takes: Vec<Take>,
     /// Which pixels see the target.
     pub target: Vec<bool>,
+    /// Whether there is a recording without the camera's light.
+    has_dark: bool,
 }
 
 /// Above so many codes below full scale a sample is clipped, or about to be.
@@ -71,7 +73,8 @@ impl Data {
                 signal_dn: recording.raw.codes().iter().map(signal).collect(),
             });
         }
-        Ok(Self { camera, takes, target })
+        let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
+        Ok(Self { camera, takes, target, has_dark })
     }
 
     /// All sets: recording, and number of the set within it.
@@ -92,6 +95,11 @@ impl Data {
         let signals =
             || self.takes.iter().flat_map(|take| &take.signal_dn).filter(|signal| signal.is_finite());
         signals().map(|&signal| f64::from(signal)).sum::<f64>() / signals().count().max(1) as f64
+    }
+
+    /// Whether `pixel` tells its constant light from the ambient light: where the target moves, or the camera's light is once off.
+    pub fn tells_constant(&self, pixel: usize) -> bool {
+        self.target[pixel] || self.has_dark
     }
 
     /// Number of pixels.

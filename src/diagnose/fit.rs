@@ -90,7 +90,7 @@ fn start(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
                 if measured.is_nan() {
                     continue;
                 }
-                let constant = if data.target[pixel] { signals[2][pixel] } else { 0.0 };
+                let constant = if data.tells_constant(pixel) { signals[2][pixel] } else { 0.0 };
                 let own = Vector4::new(signals[0][pixel], signals[1][pixel], constant, signals[3][pixel]);
                 normal[pixel].0 += own * own.transpose();
                 normal[pixel].1 += own * measured;
@@ -118,7 +118,7 @@ fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
         .collect();
     ratios.sort_by(f64::total_cmp);
     let ratio = ratios.get(ratios.len() / 2).copied().unwrap_or(0.0).max(0.0);
-    for pixel in (0..data.pixels()).filter(|&pixel| !data.target[pixel]) {
+    for pixel in (0..data.pixels()).filter(|&pixel| !data.tells_constant(pixel)) {
         let constant = (ratio * numbers[0][pixel]).min(numbers[3][pixel].max(0.0));
         numbers[2][pixel] = constant;
         numbers[3][pixel] -= constant;

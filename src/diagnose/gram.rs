@@ -210,15 +210,17 @@ impl Gram {
         let mut position = vec![0.0; pixels];
         for pixel in (0..pixels).filter(|&pixel| roots[pixel] > 0.0) {
             let root = roots[pixel];
-            // A background never moves: its constant light is ambient light.
-            let constant = if data.target[pixel] { frame.own[2][pixel] } else { 0.0 };
+            // A background never moves: as long as the light is on, its constant light is ambient light.
+            let constant = if data.tells_constant(pixel) { frame.own[2][pixel] } else { 0.0 };
             own[pixel] =
                 root * Vector4::new(frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]);
             self.own[pixel] += own[pixel] * own[pixel].transpose();
             position[pixel] = root * frame.position[pixel];
             if position[pixel] != 0.0 {
                 let sums = &mut self.position_own[set][OWN * pixel..];
-                sums.iter_mut().zip(own[pixel].iter()).for_each(|(sum, own)| *sum += (own * position[pixel]) as f32);
+                sums.iter_mut()
+                    .zip(own[pixel].iter())
+                    .for_each(|(sum, own)| *sum += (own * position[pixel]) as f32);
                 self.square[set] += position[pixel] * position[pixel];
             }
         }

@@ -146,7 +146,8 @@ impl Sets {
         if moment.frame + 1 == take.frames {
             // The pixels' mean, as the paper averages: each with the phasor's length that the model gives it.
             let sum: Complex64 = self.phasors.iter().map(|(measured, model)| measured * model.conj()).sum();
-            let distance_m = sum.arg() / phase_rad(1.0, moment.frequency_hz);
+            let distance_m =
+                if moment.lit { sum.arg() / phase_rad(1.0, moment.frequency_hz) } else { f64::NAN };
             self.seen.push((whitened.set, (whitened.take, self.now.0, self.now.1, self.now.2, distance_m)));
             self.now = (0.0, 0, 0.0);
             self.phasors.clear();

@@ -60,6 +60,8 @@ pub struct Judgement {
     pub named: Vec<Named>,
     /// Of the mismatch, the share that the named effects leave.
     pub remainder: f64,
+    /// What is left by the simulation that the camera describes, and by the search's fit.
+    pub locations: [Location; 2],
     /// A random effect, and its standard deviation.
     pub random: Option<(&'static str, f64)>,
     /// The search behind it.
@@ -128,7 +130,8 @@ pub fn judge(data: &Data, stated: Noise) -> Judgement {
         places.clear();
     }
     let fit = if named.is_empty() { found.baseline.clone() } else { found.fit.clone() };
-    Judgement { verdict, places, left, named, remainder, random: strength, found, fit, noise }
+    let locations = [baseline, end];
+    Judgement { verdict, places, left, named, remainder, locations, random: strength, found, fit, noise }
 }
 
 /// Noise that pixels do not share, beyond what was stated.

@@ -6,7 +6,8 @@ use super::coordinates::{COORDINATES, Ranges, View};
 use super::data::Data;
 use super::evidence::{Block, Evidence};
 use super::fit::Fit;
-use super::gram::{Gram, Noise, Projected};
+use super::gram::{Gram, Noise, Projected, Whitened};
+use super::profiles::{Bounds, Profile, Profiles};
 
 /// A coordinate that explains something.
 #[derive(Debug, Clone)]
@@ -28,6 +29,10 @@ pub struct Location {
     pub columns: Vec<Located>,
     /// Random errors, best first.
     pub clusters: Vec<Cluster>,
+    /// Mean residuals over coordinates.
+    pub curves: Vec<Profile>,
+    /// Root of each pixel's chi squared a sample.
+    pub map: Vec<f64>,
 }
 
 /// Looks in all coordinates at what `base` leaves.
@@ -40,16 +45,13 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let view = View { moment, take, frame, pixels: &base.pixels, ranges: &ranges };
         COORDINATES.iter().map(|coordinate| (coordinate.fill)(&view)).collect()
     };
-    let (gram, clusters) = Gram::with_blocks(
-        data,
-        &tangents,
-        noise,
-        &|_| true,
-        &sizes,
-        &fill,
-        &|clusters: Clusters, whitened| clusters.with(data, whitened),
-        &Clusters::and,
-    );
+    let bounds = Bounds::of(data);
+    let visit = |(clusters, profiles): (Clusters, Profiles), whitened: &Whitened| {
+        (clusters.with(data, whitened), profiles.with(data, &bounds, base, whitened))
+    };
+    let merge = |a: (Clusters, Profiles), b: (Clusters, Profiles)| (a.0.and(b.0), a.1.and(b.1));
+    let (gram, (clusters, profiles)) =
+        Gram::with_blocks(data, &tangents, noise, &|_| true, &sizes, &fill, &visit, &merge);
     let projected = gram.project_all(base.jitter_m2);
     let mut columns: Vec<Located> = COORDINATES
         .iter()
@@ -62,7 +64,7 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         })
         .collect();
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
-    Location { columns, clusters: clusters.ranked() }
+    Location { columns, clusters: clusters.ranked(), curves: profiles.curves(&bounds), map: profiles.map() }
 }
 
 /// Evidence and explained chi squared of a coordinate's columns together, and which of them alone says most.

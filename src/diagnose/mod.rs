@@ -12,6 +12,7 @@ mod judge;
 mod lines;
 mod location;
 mod pieces;
+mod profiles;
 mod search;
 mod verdict;
 
@@ -21,6 +22,7 @@ pub use gram::Noise;
 pub use held_out::{Agreement, HeldOut};
 pub use judge::{Judgement, Place, Verdict, judge};
 pub use location::{Located, Location, locate};
+pub use profiles::{Point, Profile};
 pub use search::{Found, Named, search};
 pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, diagnose, word};
 

@@ -24,7 +24,7 @@ pub struct Named {
     pub ln_bayes: f64,
     /// Score statistic and its degrees of freedom when it was found.
     pub score: (f64, usize),
-    /// Other effects, or combinations joined by " + ", that do about as well.
+    /// Other effects that do about as well in the place of one that was found with it.
     pub rivals: Vec<String>,
 }
 
@@ -118,12 +118,6 @@ fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter:
     Pass { models: evidence.models(), scores, invisible, detectable, singles, blocks }
 }
 
-impl Pass {
-    fn names(&self, model: &Model, candidates: &[Candidate]) -> Vec<&'static str> {
-        model.blocks.iter().map(|&block| candidates[self.blocks[block].candidate].effect.name).collect()
-    }
-}
-
 /// What stands of the named effects' evidence may come from their own form: this much of what they explain is theirs.
 fn tolerated(named: &[Named]) -> f64 {
     named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
@@ -144,20 +138,11 @@ pub fn search(data: &Data, noise: Noise) -> Found {
             alone = pass.alone(&candidates);
             pass.clone()
         });
-        let Some(best) = next else { break };
+        let Some((best, whole)) = next else { break };
         if best.blocks.len() + named.len() > MOST_EFFECTS {
             break;
         }
-        let names = pass.names(&best, &candidates);
-        let mut rivals: Vec<String> = pass
-            .models
-            .iter()
-            .take_while(|model| model.ln_bayes > best.ln_bayes - RIVAL_NATS)
-            .filter(|model| model.blocks.len() <= best.blocks.len())
-            .map(|model| pass.names(model, &candidates).join(" + "))
-            .filter(|rival| *rival != names.join(" + "))
-            .collect();
-        rivals.dedup();
+        let rivals = pass.rivals(&whole, &candidates);
         let mut pieces = current.pieces.clone();
         for &block in &best.blocks {
             let block_of = &pass.blocks[block];
@@ -176,8 +161,8 @@ pub fn search(data: &Data, noise: Noise) -> Found {
 }
 
 impl Pass {
-    /// The model to be fitted next, beside those that are named.
-    fn next(&self, named: &[Named]) -> Option<Model> {
+    /// The model to be fitted next, beside those that are named; and, where that is only a part of the best one, the whole.
+    fn next(&self, named: &[Named]) -> Option<(Model, Model)> {
         let explained =
             |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
         let enough = |model: &&Model| {
@@ -192,9 +177,29 @@ impl Pass {
         let strongest =
             best.blocks.iter().copied().max_by(|&a, &b| self.singles[a].total_cmp(&self.singles[b]))?;
         if best.blocks.len() > 1 && self.singles[strongest] > STRONG_NATS {
-            return Some(Model { blocks: vec![strongest], ln_bayes: self.singles[strongest] });
+            let alone = Model { blocks: vec![strongest], ln_bayes: self.singles[strongest] };
+            return Some((alone, best.clone()));
         }
-        Some(best.clone())
+        Some((best.clone(), best.clone()))
+    }
+
+    /// What could stand in the place of one of the effects of `best`, all else the same.
+    fn rivals(&self, best: &Model, candidates: &[Candidate]) -> Vec<String> {
+        let candidate = |block: &usize| self.blocks[*block].candidate;
+        let own: Vec<usize> = best.blocks.iter().map(candidate).collect();
+        let mut rivals: Vec<String> = Vec::new();
+        let within = self.models.iter().filter(|model| (model.ln_bayes - best.ln_bayes).abs() < RIVAL_NATS);
+        for model in within.filter(|model| model.blocks.len() == best.blocks.len()) {
+            let others: Vec<usize> =
+                model.blocks.iter().map(candidate).filter(|c| !own.contains(c)).collect();
+            if let [other] = others[..] {
+                let name = candidates[other].effect.name.to_owned();
+                if !rivals.contains(&name) {
+                    rivals.push(name);
+                }
+            }
+        }
+        rivals
     }
 
     /// Each candidate by itself, in its best variant.

@@ -235,10 +235,8 @@ fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
     let names: Vec<&str> = judgement.named.iter().map(|named| named.name).collect();
     let mut also_possible: Vec<String> = Vec::new();
     for rival in &named.rivals {
-        for name in rival.split(" + ").filter(|name| !names.contains(name)) {
-            if !also_possible.iter().any(|known| known == name) {
-                also_possible.push(name.to_owned());
-            }
+        if !names.contains(&rival.as_str()) {
+            also_possible.push(rival.clone());
         }
     }
     let (chi2, degrees_of_freedom) = named.score;
@@ -302,9 +300,7 @@ fn ruled_out(judgement: &Judgement) -> Vec<RuledOut> {
     let Judgement { found, named, verdict, .. } = judgement;
     let best = found.alone.iter().map(|alone| alone.1).fold(0.0, f64::max);
     let others = found.alone.iter().filter(|alone| {
-        !named.iter().any(|named| {
-            named.name == alone.0 || named.rivals.iter().any(|r| r.split(" + ").any(|n| n == alone.0))
-        })
+        !named.iter().any(|named| named.name == alone.0 || named.rivals.iter().any(|rival| rival == alone.0))
     });
     others
         .filter(|alone| !found.invisible.contains(&alone.0))

@@ -128,7 +128,15 @@ impl Exposure {
     /// Whether `other` stands where this one stands: what effects change is the same in both.
     pub fn stands_as(&self, other: &Self) -> bool {
         let scalars = |e: &Self| {
-            [e.position_m, e.velocity_m_s, e.in_set_s, e.motion_share, e.falloff_share, e.frequency_hz, e.angle_rad]
+            [
+                e.position_m,
+                e.velocity_m_s,
+                e.in_set_s,
+                e.motion_share,
+                e.falloff_share,
+                e.frequency_hz,
+                e.angle_rad,
+            ]
         };
         scalars(self) == scalars(other)
             && self.range_m == other.range_m

@@ -21,7 +21,7 @@ pub use algorithms::{
 };
 pub use atlas::{atlas_index, effect_picture};
 pub use colour_map::ColourMap;
-pub use diagnosis::diagnosis_text;
+pub use diagnosis::{diagnosis_page, diagnosis_text};
 pub use error_maps::{ErrorMap, ErrorMaps, rms};
 pub use explanation::{Section, explanation, sections};
 pub use paper::{figure_csv, figure_picture, markdown_rows, markdown_table, quantities_table, table_csv};

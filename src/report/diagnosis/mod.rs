@@ -1,5 +1,8 @@
 //! A diagnosis as a person reads it.
 
+mod curves;
+mod page;
 mod text;
 
+pub use page::diagnosis_page;
 pub use text::diagnosis_text;

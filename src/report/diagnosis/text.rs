@@ -67,7 +67,8 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
     text
 }
 
-fn paragraph(answer: &Answer) -> String {
+/// What was found, in one paragraph.
+pub fn paragraph(answer: &Answer) -> String {
     let names = |effects: &[EffectRow]| {
         effects.iter().map(|effect| effect.sentence.clone()).collect::<Vec<_>>().join(" ")
     };

@@ -1,0 +1,212 @@
+//! Mean residuals over coordinates and pixels, with the noise of each mean: what a report draws.
+
+use super::data::Data;
+use super::fit::Fit;
+use super::gram::Whitened;
+use crate::units::phase_rad;
+use std::f64::consts::TAU;
+
+/// A mean residual and its standard deviation by the noise alone, DN, at a place of the coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// The coordinate.
+    pub at: f64,
+    /// Mean residual, DN.
+    pub residual_dn: f64,
+    /// Its standard deviation, DN.
+    pub sigma_dn: f64,
+}
+
+/// A coordinate over which residuals are averaged.
+struct Axis {
+    name: &'static str,
+    bins: usize,
+    /// The place of a sample, 0 … 1.
+    place: fn(&Sample) -> f64,
+    /// The coordinate at a place.
+    at: fn(&Bounds, f64) -> f64,
+}
+
+struct Sample<'a> {
+    data: &'a Data,
+    bounds: &'a Bounds,
+    fit: &'a Fit,
+    whitened: &'a Whitened<'a>,
+    pixel: usize,
+}
+
+/// What the coordinates range over.
+#[derive(Debug, Clone, Copy)]
+pub struct Bounds {
+    position_m: (f64, f64),
+    velocity_m_s: f64,
+    time_s: f64,
+    full_scale_dn: f64,
+    size: (usize, usize),
+}
+
+impl Bounds {
+    /// Of `data`.
+    pub fn of(data: &Data) -> Self {
+        let moments = || data.takes.iter().flat_map(|take| &take.moments);
+        let most = |value: fn(&crate::physics::Moment) -> f64| moments().map(value).fold(0.0, f64::max);
+        let geometry = data.geometry();
+        Self {
+            position_m: (
+                moments().map(|m| m.position_m).fold(f64::INFINITY, f64::min),
+                most(|m| m.position_m),
+            ),
+            velocity_m_s: most(|m| m.velocity_m_s.abs()).max(1e-9),
+            time_s: most(|m| m.time_s).max(1e-9),
+            full_scale_dn: f64::from((1_u32 << data.camera.adc_bits) - 1),
+            size: (geometry.height, geometry.width),
+        }
+    }
+}
+
+const BINS: usize = 36;
+
+const AXES: [Axis; 8] = [
+    Axis {
+        name: "phase, turns",
+        bins: BINS,
+        place: |s| {
+            let moment = &s.data.takes[s.whitened.take].moments[s.whitened.index];
+            let range_m = moment.position_m * s.fit.pixels.obliquity[s.pixel];
+            let phase = phase_rad(range_m, moment.frequency_hz) + s.fit.pixels.phase_rad[s.pixel];
+            ((moment.step_rad + moment.offset_rad - phase) / TAU).rem_euclid(1.0)
+        },
+        at: |_, place| place,
+    },
+    Axis {
+        name: "position, m",
+        bins: BINS,
+        place: |s| {
+            (moment(s).position_m - s.bounds.position_m.0)
+                / (s.bounds.position_m.1 - s.bounds.position_m.0).max(1e-9)
+        },
+        at: |b, place| b.position_m.0 + place * (b.position_m.1 - b.position_m.0),
+    },
+    Axis {
+        name: "velocity, m/s",
+        bins: 17,
+        place: |s| 0.5 + 0.5 * moment(s).velocity_m_s / s.bounds.velocity_m_s,
+        at: |b, place| (2.0 * place - 1.0) * b.velocity_m_s,
+    },
+    Axis {
+        name: "frame of a set",
+        bins: 64,
+        place: |s| (moment(s).frame as f64 + 0.5) / 64.0,
+        at: |_, place| (place * 64.0).floor(),
+    },
+    Axis {
+        name: "time, s",
+        bins: BINS,
+        place: |s| moment(s).time_s / s.bounds.time_s,
+        at: |b, place| place * b.time_s,
+    },
+    Axis {
+        name: "row",
+        bins: 64,
+        place: |s| ((s.pixel / s.bounds.size.1) as f64 + 0.5) / s.bounds.size.0 as f64,
+        at: |b, place| place * b.size.0 as f64,
+    },
+    Axis {
+        name: "column",
+        bins: 64,
+        place: |s| ((s.pixel % s.bounds.size.1) as f64 + 0.5) / s.bounds.size.1 as f64,
+        at: |b, place| place * b.size.1 as f64,
+    },
+    Axis {
+        name: "signal, DN",
+        bins: BINS,
+        place: |s| s.whitened.frame.base[s.pixel] / s.bounds.full_scale_dn,
+        at: |b, place| place * b.full_scale_dn,
+    },
+];
+
+fn moment<'a>(sample: &Sample<'a>) -> &'a crate::physics::Moment {
+    &sample.data.takes[sample.whitened.take].moments[sample.whitened.index]
+}
+
+/// Weighted sums of residuals.
+#[derive(Debug, Clone, Default)]
+pub struct Profiles {
+    /// `[axis][bin]`: sum of w r, sum of w.
+    sums: Vec<Vec<(f64, f64)>>,
+    /// `[pixel]`: sum of squares of the whitened residual, and samples.
+    pixels: Vec<(f64, usize)>,
+}
+
+/// A coordinate's points.
+#[derive(Debug, Clone)]
+pub struct Profile {
+    /// The coordinate and its unit.
+    pub name: &'static str,
+    /// Where there are samples.
+    pub points: Vec<Point>,
+}
+
+impl Profiles {
+    /// With one more frame.
+    pub fn with(mut self, data: &Data, bounds: &Bounds, fit: &Fit, whitened: &Whitened) -> Self {
+        self.sums.resize_with(AXES.len(), Vec::new);
+        for (sums, axis) in self.sums.iter_mut().zip(&AXES) {
+            sums.resize(axis.bins, (0.0, 0.0));
+        }
+        self.pixels.resize(data.pixels(), (0.0, 0));
+        for (pixel, (&root, &residual)) in whitened.roots.iter().zip(whitened.residual).enumerate() {
+            if root == 0.0 {
+                continue;
+            }
+            self.pixels[pixel].0 += residual * residual;
+            self.pixels[pixel].1 += 1;
+            if !data.target[pixel] {
+                continue;
+            }
+            let sample = Sample { data, bounds, fit, whitened, pixel };
+            for (sums, axis) in self.sums.iter_mut().zip(&AXES) {
+                let bin = ((axis.place)(&sample) * axis.bins as f64) as usize;
+                let sum = &mut sums[bin.min(axis.bins - 1)];
+                sum.0 += root * residual;
+                sum.1 += root * root;
+            }
+        }
+        self
+    }
+
+    /// Those of both.
+    pub fn and(mut self, other: Self) -> Self {
+        if self.sums.is_empty() {
+            return other;
+        }
+        for (sum, other) in self.sums.iter_mut().flatten().zip(other.sums.into_iter().flatten()) {
+            sum.0 += other.0;
+            sum.1 += other.1;
+        }
+        for (sum, other) in self.pixels.iter_mut().zip(other.pixels) {
+            sum.0 += other.0;
+            sum.1 += other.1;
+        }
+        self
+    }
+
+    /// The curves.
+    pub fn curves(&self, bounds: &Bounds) -> Vec<Profile> {
+        let curve = |(axis, sums): (&Axis, &Vec<(f64, f64)>)| {
+            let point = |(bin, &(score, weight)): (usize, &(f64, f64))| Point {
+                at: (axis.at)(bounds, (bin as f64 + 0.5) / axis.bins as f64),
+                residual_dn: score / weight,
+                sigma_dn: weight.sqrt().recip(),
+            };
+            let points = sums.iter().enumerate().filter(|(_, sum)| sum.1 > 0.0).map(point).collect();
+            Profile { name: axis.name, points }
+        };
+        AXES.iter().zip(&self.sums).map(curve).collect()
+    }
+
+    /// Root of each pixel's chi squared a sample; NaN where a pixel has none.
+    pub fn map(&self) -> Vec<f64> {
+        self.pixels.iter().map(|&(square, samples)| (square / samples as f64).sqrt()).collect()
+    }
+}

@@ -1,0 +1,172 @@
+//! A diagnosis as a page that needs nothing else: the verdict, maps and curves before and after, the evidence.
+
+use super::curves::curve;
+use super::text::paragraph;
+use crate::diagnose::{Diagnosis, Location};
+use crate::frames::Geometry;
+use crate::report::colour_map::ColourMap;
+use crate::report::pixel_image::png_data_uri;
+use askama::Template;
+use std::path::Path;
+
+/// A row of a table: its cells.
+type Row = Vec<String>;
+
+#[derive(Template)]
+#[template(path = "diagnosis.html")]
+struct Page<'a> {
+    title: String,
+    verdict: String,
+    paragraph: String,
+    effects: Vec<Section>,
+    located: Vec<Row>,
+    held_out: Vec<Row>,
+    evidence: Vec<Row>,
+    next: Vec<String>,
+    invisible: Vec<Row>,
+    smallest: Vec<Row>,
+    maps: Vec<(&'a str, String)>,
+    scale: String,
+    curves: Vec<String>,
+    remainder: String,
+    provenance: String,
+}
+
+struct Section {
+    name: &'static str,
+    sentence: String,
+    also: String,
+    parameters: Vec<Row>,
+}
+
+/// A self-contained HTML page of what `diagnosis` says of `campaign`, whose pixels are `geometry`.
+///
+/// # Errors
+/// None that a caller can bring about: the template is part of the program.
+pub fn diagnosis_page(
+    campaign: &Path,
+    diagnosis: &Diagnosis,
+    geometry: Geometry,
+) -> crate::problem::Result<String> {
+    let answer = &diagnosis.answer;
+    let [before, after] = &diagnosis.judgement.locations;
+    let limit = before.map.iter().chain(&after.map).copied().filter(|v| v.is_finite()).fold(1.5, f64::max);
+    let map =
+        |location: &Location| png_data_uri(geometry, &location.map, (0.0, limit), ColourMap::Sequential);
+    let held = &answer.held_out;
+    let page = Page {
+        title: campaign.display().to_string(),
+        verdict: answer.verdict.replace('_', " "),
+        paragraph: paragraph(answer),
+        effects: answer
+            .effects
+            .iter()
+            .map(|effect| Section {
+                name: effect.name,
+                sentence: effect.sentence.clone(),
+                also: effect.also_possible.join(", "),
+                parameters: effect
+                    .parameters
+                    .iter()
+                    .map(|row| {
+                        vec![
+                            row.name.clone(),
+                            format!("{:.6}", row.value),
+                            format!("{:.2e}", row.sigma),
+                            row.unit.to_owned(),
+                        ]
+                    })
+                    .collect(),
+            })
+            .collect(),
+        located: answer
+            .located
+            .iter()
+            .map(|row| {
+                vec![
+                    row.coordinate.to_owned(),
+                    row.shape.clone(),
+                    row.recording.clone(),
+                    format!("{:.1e}", row.p),
+                    format!("{:.3}", row.rms_dn),
+                ]
+            })
+            .collect(),
+        held_out: vec![
+            vec![
+                "chi squared a sample".to_owned(),
+                format!("{:.5}", held.chi2_per_dof_before),
+                format!("{:.5}", held.chi2_per_dof_after),
+            ],
+            vec![
+                "raw frames, DN RMS".to_owned(),
+                format!("{:.4}", held.rms_dn_before),
+                format!("{:.4}", held.rms_dn_after),
+            ],
+            vec![
+                "distance of a set, mm RMS".to_owned(),
+                format!("{:.3}", 1e3 * held.distance_rms_m_before),
+                format!("{:.3}", 1e3 * held.distance_rms_m_after),
+            ],
+        ],
+        evidence: evidence(diagnosis),
+        next: answer
+            .next_recording
+            .iter()
+            .map(|next| {
+                format!(
+                    "{}: {} (expected {:.0} standard deviations)",
+                    next.to_separate.join(" or "),
+                    next.what,
+                    next.expected_rho
+                )
+            })
+            .collect(),
+        invisible: answer.invisible.iter().map(|row| vec![row.name.to_owned(), row.why.clone()]).collect(),
+        smallest: answer
+            .smallest_detectable
+            .iter()
+            .map(|row| {
+                vec![
+                    row.name.to_owned(),
+                    row.parameter.to_owned(),
+                    format!("{:.3e}", row.value),
+                    row.unit.to_owned(),
+                ]
+            })
+            .collect(),
+        maps: vec![("before", map(before)), ("after", map(after))],
+        scale: format!("{limit:.2}"),
+        curves: before.curves.iter().zip(&after.curves).map(|(before, after)| curve(before, after)).collect(),
+        remainder: match answer.remainder.coordinate {
+            Some(coordinate) => format!(
+                "{:.2} % of the mismatch is left, most of it over {coordinate}.",
+                100.0 * answer.remainder.share
+            ),
+            None => String::new(),
+        },
+        provenance: serde_json::to_string_pretty(&answer.provenance).unwrap_or_default(),
+    };
+    page.render().map_err(|error| crate::problem::Problem::at("the report's template", error))
+}
+
+/// Every candidate: what it explains alone, and what became of it.
+fn evidence(diagnosis: &Diagnosis) -> Vec<Row> {
+    let answer = &diagnosis.answer;
+    let mut alone: Vec<_> = diagnosis.judgement.found.alone.iter().collect();
+    alone.sort_by(|a, b| b.3.total_cmp(&a.3));
+    let fate = |name: &str| {
+        if answer.effects.iter().any(|effect| effect.name == name) {
+            return "named".to_owned();
+        }
+        if answer.effects.iter().any(|effect| effect.also_possible.iter().any(|also| also == name)) {
+            return "also possible".to_owned();
+        }
+        let row = answer.ruled_out.iter().find(|row| row.name == name);
+        row.map_or_else(|| "cannot be seen here".to_owned(), |row| row.by.clone())
+    };
+    let row = |&&(name, chi2, degrees, nats): &&(&'static str, f64, usize, f64)| {
+        vec![name.to_owned(), format!("{chi2:.1}"), degrees.to_string(), format!("{nats:.1}"), fate(name)]
+    };
+    alone.iter().map(row).collect()
+}
