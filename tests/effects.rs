@@ -34,7 +34,6 @@ fn moment(frame: usize, position_m: f64, velocity_m_s: f64, offset_rad: f64, lit
         velocity_m_s,
         frequency_hz: 30e6,
         lit,
-        follows: true,
     }
 }
 

@@ -57,7 +57,6 @@ fn still_frame(amplitude_dn: &[f64], effects: Vec<Active>, frame: usize) -> Vec<
         velocity_m_s: 0.0,
         frequency_hz: 30e6,
         lit: true,
-        follows: false,
     };
     chain.expose(moment, Memory::default()).signal_dn
 }

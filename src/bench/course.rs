@@ -21,8 +21,6 @@ pub struct Course {
     pub frame_times_s: Option<Vec<f64>>,
 }
 
-/// A frame follows the one before when it starts within so many frame periods after it: a frame that was left out takes two.
-const FOLLOWS_WITHIN_PERIODS: f64 = 1.5;
 /// Where a dark frame has no position, m. No light comes from there.
 const DARK_POSITION_M: f64 = 1.0;
 
@@ -79,8 +77,6 @@ impl Course {
     pub fn moment(&self, index: usize) -> Moment {
         let (set, frame) = (index / self.frames(), index % self.frames());
         let (row, time_s) = (&self.sets[set], self.start_s(index));
-        let since_s = |before: usize| time_s - self.start_s(before);
-        let soon = |since_s: f64| since_s > 0.0 && since_s <= FOLLOWS_WITHIN_PERIODS * self.frame_period_s;
         Moment {
             set,
             frame,
@@ -94,7 +90,15 @@ impl Course {
             velocity_m_s: row.velocity_m_s,
             frequency_hz: self.frequency_hz,
             lit: self.lit(),
-            follows: index > 0 && soon(since_s(index - 1)),
+        }
+    }
+
+    /// The frame before frame number `index`: before a set's first one, the one that a camera which runs on evenly takes then.
+    pub fn before(&self, index: usize) -> Moment {
+        let moment = self.moment(index);
+        match moment.frame {
+            0 => moment.preceding((self.frames() > 1).then(|| self.moment(index + 1))),
+            _ => self.moment(index - 1),
         }
     }
 
@@ -144,12 +148,12 @@ mod tests {
     #[test]
     fn a_recordings_frames_are_the_simulators_moments() {
         let moments = moments(&recording()).unwrap();
-        let places: Vec<_> = moments.iter().map(|m| (m.set, m.frame, m.follows)).collect();
-        // The third set begins 0.1 s after the last frame of the second: that one left nothing behind.
-        assert_eq!(
-            places,
-            [(0, 0, false), (0, 1, true), (1, 0, true), (1, 1, true), (2, 0, false), (2, 1, true)]
-        );
+        let places: Vec<_> = moments.iter().map(|m| (m.set, m.frame)).collect();
+        assert_eq!(places, [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)]);
+        let before = Course::of(&recording()).unwrap().before(4);
+        // The camera runs on evenly, where the target is: a step of 1.5 rad and a period before the set's first frame.
+        assert_eq!((before.set, before.step_rad, before.position_m), (2, -1.5, 1.8));
+        assert!((before.time_s - 1.175).abs() < 1e-12 && (before.in_set_s + 0.025).abs() < 1e-12);
         let last = moments[5];
         assert_eq!((last.position_m, last.velocity_m_s, last.offset_rad), (1.8, -0.5, 0.25));
         assert_eq!((last.step_rad, last.frames, last.lit, last.frequency_hz), (1.5, 2, true, 30e6));
@@ -161,7 +165,7 @@ mod tests {
         let mut recording = recording();
         recording.frame_times_s = Some(vec![1.0, 1.03, 1.05, 1.10, 1.2, 1.24]);
         let late = &moments(&recording).unwrap()[3];
-        assert_eq!((late.time_s, late.follows), (1.10, false));
+        assert_eq!(late.time_s, 1.10);
         recording.sets[1].position_m = None;
         let refusal = moments(&recording).unwrap_err().to_string();
         assert!(refusal.starts_with("campaign/four-motion/sets.csv: set 1 has no position_m"), "{refusal}");

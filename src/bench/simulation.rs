@@ -57,13 +57,14 @@ impl Simulation<'_> {
         let for_pixels = self.chain.draws_for_pixels();
         let noise = if self.noise || for_pixels { draws.rest.normal(pixels) } else { Vec::new() };
         let pixel_deviates = if for_pixels { draws.rest.normal(pixels) } else { Vec::new() };
-        let before_dn = (moment.follows && self.chain.looks_back()).then(|| {
+        let before_dn = self.chain.looks_back().then(|| {
             before_dn.unwrap_or_else(|| {
-                let deviates = self.deviates(&self.draws(index - 1));
-                self.chain.arrive(course.moment(index - 1), Memory { deviates, ..Memory::default() })
+                let deviates =
+                    if moment.frame > 0 { self.deviates(&self.draws(index - 1)) } else { Vec::new() };
+                self.chain.arrive(course.before(index), Memory { deviates, ..Memory::default() })
             })
         });
-        (self.chain.expose(moment, Memory { before_dn, deviates, pixel_deviates }), noise)
+        (self.chain.expose(moment, Memory { before_dn, deviates, pixel_deviates, noisy: self.noise }), noise)
     }
 
     /// The signal of frame number `index` of `course`, DN above the pedestal, before noise and converter.
@@ -77,6 +78,9 @@ impl Simulation<'_> {
         for (frame, codes) in codes.chunks_mut(self.chain.pixels.count()).enumerate() {
             let (exposure, noise) = self.expose(course, set * course.frames() + frame, before_dn);
             self.sensor.read_out(&exposure.signal_dn, self.noise.then_some(&*noise), codes);
+            if self.noise {
+                self.chain.cut_codes(codes);
+            }
             before_dn = Some(exposure.arrived_dn);
         }
     }

@@ -35,9 +35,9 @@ const STEPS: usize = 14;
 /// Least and greatest standard deviation of each mode.
 const ENDS: [(f64, f64); 4] = [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03)];
 
-fn variance(mode: usize, step: usize) -> f64 {
+fn variance(mode: usize, step: f64) -> f64 {
     let (low, high) = ENDS[mode];
-    (low * (high / low).powf(step as f64 / (STEPS - 1) as f64)).powi(2)
+    (low * (high / low).powf(step / (STEPS - 1) as f64)).powi(2)
 }
 
 /// A common error that the data ask for.
@@ -145,15 +145,16 @@ impl Clusters {
             for mode in 0..MODES.len() {
                 let at = |step: usize| self.evidence.iter().map(|take| take[number][mode][step]).sum::<f64>();
                 let best = (0..STEPS).max_by(|&a, &b| at(a).total_cmp(&at(b))).unwrap_or(0);
+                let spread = peak(best, &at);
                 let of_take = |take: &usize| self.evidence[*take][number][mode][best];
                 let take = (0..self.evidence.len()).max_by(|a, b| of_take(a).total_cmp(&of_take(b)));
                 found.push(Cluster {
                     level,
                     mode,
-                    sigma: variance(mode, best).sqrt(),
+                    sigma: variance(mode, spread).sqrt(),
                     inflation: {
                         let (count, information) = self.information[number][mode];
-                        1.0 + variance(mode, best) * information / count.max(1.0)
+                        1.0 + variance(mode, spread) * information / count.max(1.0)
                     },
                     ln_bayes: at(best),
                     take: take.unwrap_or(0),
@@ -166,13 +167,23 @@ impl Clusters {
     }
 }
 
+/// Where the evidence is greatest, between the steps: by the parabola through the best one and its neighbours.
+fn peak(best: usize, at: &dyn Fn(usize) -> f64) -> f64 {
+    if best == 0 || best + 1 == STEPS {
+        return best as f64;
+    }
+    let (left, middle, right) = (at(best - 1), at(best), at(best + 1));
+    let bend = left - 2.0 * middle + right;
+    best as f64 + if bend < 0.0 { 0.5 * (left - right) / bend } else { 0.0 }
+}
+
 fn add(curve: &mut [f64; STEPS], informed: &mut (f64, f64), mode: usize, sums: &[(f64, f64)]) {
     for sum in sums.iter().filter(|sum| sum.1 > 0.0) {
         informed.0 += 1.0;
         informed.1 += sum.1;
     }
     for (step, evidence) in curve.iter_mut().enumerate() {
-        let variance = variance(mode, step);
+        let variance = variance(mode, step as f64);
         for &(score, information) in sums.iter().filter(|sum| sum.1 > 0.0) {
             let share = variance * information;
             *evidence += 0.5 * variance * score * score / (1.0 + share) - 0.5 * share.ln_1p();

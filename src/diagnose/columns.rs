@@ -185,13 +185,8 @@ impl<'a> Tangents<'a> {
 /// The frame before: of the same set, or, of a set's first, what a camera that runs on evenly had taken then.
 fn before(moments: &[Moment], index: usize) -> Moment {
     let moment = moments[index];
-    if moment.frame > 0 {
-        return moments[index - 1];
+    match moment.frame {
+        0 => moment.preceding(moments.get(index + 1).copied().filter(|_| moment.frames > 1)),
+        _ => moments[index - 1],
     }
-    let step_rad = match moments.get(index + 1) {
-        Some(next) if moment.frames > 1 => 2.0 * moment.step_rad - next.step_rad,
-        _ => moment.step_rad,
-    };
-    let period_s = moment.frame_period_s;
-    Moment { step_rad, in_set_s: moment.in_set_s - period_s, time_s: moment.time_s - period_s, ..moment }
 }

@@ -28,6 +28,8 @@ pub struct Data {
     pub takes: Vec<Take>,
     /// Which pixels see the target.
     pub target: Vec<bool>,
+    /// Low bits that no code of any recording has set.
+    pub cut_bits: u32,
     /// Whether there is a recording without the camera's light.
     has_dark: bool,
 }
@@ -74,7 +76,9 @@ impl Data {
             });
         }
         let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
-        Ok(Self { camera, takes, target, has_dark })
+        let union = recordings.iter().flat_map(|r| r.raw.codes()).fold(0, |union, code| union | code);
+        let cut_bits = if union == 0 { 0 } else { union.trailing_zeros() };
+        Ok(Self { camera, takes, target, cut_bits, has_dark })
     }
 
     /// All sets: recording, and number of the set within it.

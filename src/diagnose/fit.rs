@@ -7,7 +7,7 @@ use super::lines::Series;
 use super::pieces::Piece;
 use crate::bench::chain;
 use crate::physics::{Chain, Memory, Pixels};
-use nalgebra::{DVector, Matrix4, Vector4};
+use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use std::sync::Arc;
 
 /// A fitted model.
@@ -148,7 +148,7 @@ pub fn fit(
     let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
     let (gram, series) = Gram::with_blocks(data, &tangents, noise, counts, &[0], &fill, &visit, &Series::and);
     let projected = gram.project(None);
-    let (_, sigma) = step(&projected);
+    let (_, sigma) = step(&projected, &reaches(&columns, &pieces));
     Fit {
         pixels,
         pieces,
@@ -171,7 +171,7 @@ pub fn improved(
 ) -> (Arc<Pixels>, Vec<Piece>) {
     let (tangents, columns) = Tangents::new(data, pixels, &pieces, &[]);
     let projected = Gram::of(data, &tangents, noise, counts).project(None);
-    let (theta, _) = step(&projected);
+    let (theta, _) = step(&projected, &reaches(&columns, &pieces));
     let own = projected.own(&theta);
     let pixels = Arc::new(moved(pixels, &own));
     for (column, step) in columns.iter().zip(theta.iter()) {
@@ -199,25 +199,29 @@ fn free_shapes(pieces: &mut [Piece]) {
     }
 }
 
-/// The step to the minimum, and the standard deviations there.
-fn step(projected: &Projected) -> (DVector<f64>, Vec<f64>) {
+/// How far the number of each column may go.
+fn reaches(columns: &[Column], pieces: &[Piece]) -> Vec<f64> {
+    columns.iter().map(|column| pieces[column.piece].effect.parameters[column.parameter].reach()).collect()
+}
+
+/// The step to the minimum, and the standard deviations there. That no number goes beyond its `reach` is known beforehand.
+fn step(projected: &Projected, reach: &[f64]) -> (DVector<f64>, Vec<f64>) {
     let size = projected.vector.len();
     if size == 0 {
         return (DVector::zeros(0), Vec::new());
     }
-    let scale = DVector::from_fn(size, |c, _| {
-        let diagonal = projected.matrix[(c, c)];
-        if diagonal > 1e-9 * projected.raw[c] { diagonal.sqrt().recip() } else { 0.0 }
+    let known = |c: usize| projected.matrix[(c, c)].max(0.0) + reach[c].powi(-2);
+    let scale = DVector::from_fn(size, |c, _| known(c).sqrt().recip());
+    let scaled = DMatrix::from_fn(size, size, |row, column| {
+        let value = if row == column { known(row) } else { projected.matrix[(row, column)] };
+        value * scale[row] * scale[column]
     });
-    let scaled = projected.matrix.map_with_location(|row, column, value| value * scale[row] * scale[column]);
     let eigen = scaled.symmetric_eigen();
     let kept = eigen.eigenvalues.map(|value| if value > 1e-6 { value.recip() } else { 0.0 });
-    let inverse =
-        &eigen.eigenvectors * nalgebra::DMatrix::from_diagonal(&kept) * eigen.eigenvectors.transpose();
+    let inverse = &eigen.eigenvectors * DMatrix::from_diagonal(&kept) * eigen.eigenvectors.transpose();
     let theta = (&inverse * projected.vector.component_mul(&scale)).component_mul(&scale);
-    let sigma = (0..size)
-        .map(|c| if scale[c] > 0.0 { inverse[(c, c)].max(0.0).sqrt() * scale[c] } else { f64::INFINITY });
-    (theta, sigma.collect())
+    let sigma = (0..size).map(|c| inverse[(c, c)].max(0.0).sqrt() * scale[c]).collect();
+    (theta, sigma)
 }
 
 /// The pixels with their own numbers moved.

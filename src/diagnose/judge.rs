@@ -7,6 +7,7 @@ use super::gram::Noise;
 use super::location::{Location, locate};
 use super::pieces::tolerance;
 use super::search::{Found, Named, search};
+use crate::physics::effects;
 
 /// Evidence (nats) from which on a coordinate counts as located.
 const LOCATED_NATS: f64 = 4.0;
@@ -16,6 +17,8 @@ const CLUSTER_NATS: f64 = 6.0;
 const USUAL_JITTER_M: f64 = 0.5e-3;
 /// Of what random errors explain, columns of a coordinate must explain so much to be what they are.
 const ORDERED_SHARE: f64 = 0.2;
+/// How often the noise is corrected.
+const NOISE_STEPS: usize = 3;
 /// A form may leave so many times its tolerance before it is not believed.
 const DISBELIEF: f64 = 3.0;
 
@@ -77,12 +80,15 @@ pub fn judge(data: &Data, stated: Noise) -> Judgement {
     let mut noise = stated;
     let mut found = search(data, noise);
     let mut end = locate(data, &found.fit, noise);
-    let excess = noise_excess(data, &end);
-    if let Some(excess) = &excess {
-        match excess.mode {
-            0 => noise.floor += excess.sigma * excess.sigma,
-            _ => noise.square += excess.sigma * excess.sigma,
+    let mut excess: Option<Cluster> = None;
+    for _ in 0..NOISE_STEPS {
+        let Some(more) = noise_excess(data, &end) else { break };
+        match more.mode {
+            0 => noise.floor += more.sigma * more.sigma,
+            _ => noise.square += more.sigma * more.sigma,
         }
+        // The first says what it is; the others make it exact.
+        excess = Some(excess.map_or(more, |first| Cluster { sigma: first.sigma.hypot(more.sigma), ..first }));
         found = search(data, noise);
         end = locate(data, &found.fit, noise);
     }
@@ -125,6 +131,16 @@ pub fn judge(data: &Data, stated: Noise) -> Judgement {
         Verdict::Unexplained
     } else {
         Verdict::PartlyExplained
+    };
+    // Codes without their low bits need no statistics.
+    let verdict = if data.cut_bits > 0 && matches!(verdict, Verdict::Clean | Verdict::Explained) {
+        let ln_bayes = found.baseline.samples as f64 * f64::from(data.cut_bits) * std::f64::consts::LN_2;
+        strength = Some((effects::FIXED_POINT, f64::from(data.cut_bits)));
+        let score = (2.0 * ln_bayes, 1);
+        named.push(Named { name: effects::FIXED_POINT, ln_bayes, score, rivals: Vec::new() });
+        Verdict::Explained
+    } else {
+        verdict
     };
     if verdict == Verdict::Clean {
         places.clear();

@@ -19,6 +19,8 @@ pub struct Series {
     frames: Vec<(usize, f64, [Sum; LINE_MODES.len()])>,
     /// The encoder's reading (m), and the target's position.
     sets: Vec<(f64, Sum)>,
+    /// From a frame to the next, s.
+    frame_period_s: f64,
 }
 
 /// A line.
@@ -38,6 +40,8 @@ pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
 const CYCLES_M: (f64, f64) = (0.6, 250.0);
 /// Frequencies are so many times finer than the inverse of the whole length.
 const FINENESS: f64 = 4.0;
+/// Of a line that is seen at rest, so many cycles over the whole length are a drift too.
+const DRIFT_CYCLES: f64 = 3.0;
 
 impl Series {
     /// With one more frame.
@@ -57,6 +61,7 @@ impl Series {
             position.0 += value * residual;
             position.1 += value * value;
         }
+        self.frame_period_s = moment.frame_period_s;
         self.frames.push((whitened.take, moment.time_s, sums));
         if moment.frame == 0 {
             self.sets.push((moment.position_m, (0.0, 0.0)));
@@ -70,6 +75,7 @@ impl Series {
 
     /// Those of both.
     pub fn and(mut self, other: Self) -> Self {
+        self.frame_period_s = self.frame_period_s.max(other.frame_period_s);
         self.frames.extend(other.frames);
         self.sets.extend(other.sets);
         self
@@ -77,6 +83,8 @@ impl Series {
 
     /// The strongest line in time of a mode, with a phase of its own in every recording, Hz.
     pub fn in_time(&self, mode: usize, ends: (f64, f64)) -> Option<Line> {
+        // A line that frames see at rest is a drift.
+        let period_s = self.frame_period_s;
         let takes = self.frames.iter().map(|frame| frame.0 + 1).max()?;
         let groups: Vec<Vec<(f64, Sum)>> = (0..takes)
             .map(|take| {
@@ -84,17 +92,19 @@ impl Series {
                 of_take.map(|&(_, time_s, sums)| (time_s, sums[mode])).collect()
             })
             .collect();
-        strongest(&groups, ends)
+        strongest(&groups, ends, period_s)
     }
 
     /// The strongest line in the encoder's reading, cycles a metre.
     pub fn in_position(&self) -> Option<Line> {
-        strongest(std::slice::from_ref(&self.sets), CYCLES_M)
+        strongest(std::slice::from_ref(&self.sets), CYCLES_M, 0.0)
     }
 }
 
 /// The strongest line of all groups, each with a phase of its own (Lomb 1976, with the information as weights).
-fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64)) -> Option<Line> {
+///
+/// Not those that go through whole turns within `period`, or nearly.
+fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -> Option<Line> {
     let length = |group: &Vec<(f64, Sum)>| {
         let (first, last) = group
             .iter()
@@ -109,6 +119,10 @@ fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64)) -> Option<Line
     let count = ((high - low) / step).ceil() as usize;
     let power = |number: usize| -> f64 {
         let frequency = low + number as f64 * step;
+        let turns = frequency * period;
+        if period > 0.0 && (turns - turns.round()).abs() < DRIFT_CYCLES / longest * period {
+            return 0.0;
+        }
         groups.iter().map(|group| power(group, frequency)).sum()
     };
     let powers: Vec<f64> = (0..count).into_par_iter().map(power).collect();
@@ -151,7 +165,7 @@ mod tests {
         let at = |n: usize| 0.025 * n as f64 + 0.175 * (n / 4) as f64;
         let group: Vec<(f64, Sum)> =
             (0..400).map(|n| (at(n), ((TAU * 103.1 * at(n) + 1.0).sin(), 1.0))).collect();
-        let line = strongest(&[group], (90.0, 112.0)).unwrap();
+        let line = strongest(&[group], (90.0, 112.0), 0.025).unwrap();
         assert!((line.frequency - 103.1).abs() < 0.01, "{line:?}");
         assert!((line.chi2 - 200.0).abs() < 10.0, "{line:?}");
     }

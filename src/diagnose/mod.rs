@@ -30,5 +30,11 @@ pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, diagnose, word};
 pub fn stated_noise(data: &Data) -> Noise {
     let camera = &data.camera;
     let read_dn = camera.read_noise_e / camera.gain_e_per_dn;
-    Noise { floor: read_dn * read_dn + 1.0 / 12.0, slope: camera.gain_e_per_dn.recip(), square: 0.0 }
+    // Of codes that have low bits cut off, too, the unit is what they are rounded to.
+    let unit_dn = f64::from(1_u32 << data.cut_bits.min(16));
+    Noise {
+        floor: read_dn * read_dn + unit_dn * unit_dn / 12.0,
+        slope: camera.gain_e_per_dn.recip(),
+        square: 0.0,
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::data::Data;
 use super::lines::{FLICKER_HZ, Series};
-use crate::physics::{Active, Chance, EFFECTS, Effect};
+use crate::physics::{Active, Chance, EFFECTS, Effect, effects};
 
 /// An effect at certain values, in some of the recordings.
 #[derive(Debug, Clone)]
@@ -41,8 +41,7 @@ pub struct Candidate {
 const BY_TAKE: [&str; 1] = ["ambient_flicker"];
 const BY_SCHEME: [&str; 2] = ["phase_step_errors", "frame_gain"];
 /// Effects that start with a corner, and the values at which they are tried.
-const FINITE: [(&str, &[f64]); 2] =
-    [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8]), ("fixed_point", &[1.0, 2.0, 3.0, 4.0])];
+const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8])];
 
 /// How exactly the forms of effects are known: so much of what they explain may be left.
 const APPROXIMATE: f64 = 0.04;
@@ -90,7 +89,9 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
     EFFECTS
         .iter()
         .copied()
-        .filter(|effect| effect.chance == Chance::None && !included(effect))
+        .filter(|effect| {
+            effect.chance == Chance::None && effect.name != effects::FIXED_POINT && !included(effect)
+        })
         .map(|effect| {
             let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));
             let shapes = line.map(|(shape, _)| vec![shape]);

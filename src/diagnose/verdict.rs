@@ -193,6 +193,16 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
         provenance: json!({
             "program": concat!("vuris ", env!("CARGO_PKG_VERSION")),
             "recordings": data.takes.iter().map(|take| take.name.clone()).collect::<Vec<_>>(),
+            "search": found.named.iter().map(|named| json!({
+                "name": named.name,
+                "ln_bayes_factor": named.ln_bayes,
+                "chi2": named.score.0,
+                "values": found.fit.pieces.iter().filter(|piece| piece.effect.name == named.name)
+                    .map(|piece| piece.values.clone()).collect::<Vec<_>>(),
+            })).collect::<Vec<_>>(),
+            "left": judgement.left.iter().map(|place| json!({
+                "coordinate": place.coordinate, "shape": place.shape, "ln_bayes_factor": place.ln_bayes, "chi2": place.chi2.0,
+            })).collect::<Vec<_>>(),
             "samples": found.baseline.samples,
             "noise": {"floor_dn2": judgement.noise.floor, "slope_dn": judgement.noise.slope,
                       "relative_squared": judgement.noise.square},

@@ -165,7 +165,6 @@ impl Camera {
                 velocity_m_s: set.velocity_m_s,
                 frequency_hz: set.frequency_hz,
                 lit: true,
-                follows: false,
             };
             self.0.expose(moment, Memory::default()).signal_dn[0]
         };

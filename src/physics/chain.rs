@@ -2,6 +2,7 @@
 
 use super::correlation::Correlation;
 use super::effect::{Active, Chance, Place};
+use super::effects;
 use super::exposure::{Exposure, Included, Moment};
 use super::pixels::Pixels;
 use std::sync::Arc;
@@ -28,6 +29,8 @@ pub struct Memory {
     pub deviates: Vec<f64>,
     /// Draws for its pixels; empty where no effect needs any.
     pub pixel_deviates: Vec<f64>,
+    /// Whether noise comes after the chain.
+    pub noisy: bool,
 }
 
 impl Chain {
@@ -56,9 +59,17 @@ impl Chain {
     }
 
     fn begin(&self, moment: Moment, memory: Memory) -> Exposure {
-        let Memory { before_dn, deviates, pixel_deviates } = memory;
+        let Memory { before_dn, deviates, pixel_deviates, noisy } = memory;
         let exposure = Exposure::new(moment, &self.pixels, self.included, &self.correlation);
-        Exposure { before_dn, deviates, pixel_deviates, ..exposure }
+        Exposure { before_dn, deviates, pixel_deviates, noisy, ..exposure }
+    }
+
+    /// Cuts low bits off noisy codes, where the camera's arithmetic does.
+    pub fn cut_codes(&self, codes: &mut [u32]) {
+        for active in self.effects.iter().filter(|active| active.effect.name == effects::FIXED_POINT) {
+            let bits = active.values[0].round() as u32;
+            codes.iter_mut().for_each(|code| *code = *code >> bits << bits);
+        }
     }
 
     /// Whether a frame needs the light of the one before.

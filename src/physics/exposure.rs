@@ -34,8 +34,16 @@ pub struct Moment {
     pub frequency_hz: f64,
     /// Whether the camera's own light is on.
     pub lit: bool,
-    /// Whether the frame before, of this recording, ended when this one began.
-    pub follows: bool,
+}
+
+impl Moment {
+    /// The frame before this one, the first of its set, by a camera that runs on evenly: `second` is the set's second frame.
+    #[must_use]
+    pub fn preceding(self, second: Option<Self>) -> Self {
+        let step_rad = second.map_or(self.step_rad, |second| 2.0 * self.step_rad - second.step_rad);
+        let period_s = self.frame_period_s;
+        Self { step_rad, in_set_s: self.in_set_s - period_s, time_s: self.time_s - period_s, ..self }
+    }
 }
 
 /// What the baseline takes into account of a target that moves.
@@ -92,6 +100,8 @@ pub struct Exposure {
     pub deviates: Vec<f64>,
     /// That of the effect that acts just now; 0 where there is none.
     pub deviate: f64,
+    /// Whether noise comes after this, and codes are made of the sum.
+    pub noisy: bool,
     /// Draws for its pixels, where an effect needs them.
     pub pixel_deviates: Vec<f64>,
 }
@@ -121,6 +131,7 @@ impl Exposure {
             before_dn: None,
             deviates: Vec::new(),
             deviate: 0.0,
+            noisy: false,
             pixel_deviates: Vec::new(),
         }
     }

@@ -15,7 +15,8 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    if values[0] > 0.0 {
+    // With noise it is the codes that are cut, when there are some.
+    if values[0] > 0.0 && !exposure.noisy {
         let unit_dn = libm::exp2(values[0]);
         let pedestal_dn = exposure.pixels.pedestal_dn;
         exposure.signal_dn.iter_mut().for_each(|signal| {

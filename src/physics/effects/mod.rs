@@ -34,6 +34,9 @@ mod timing_jitter_of_frames;
 
 use super::effect::Effect;
 
+/// The camera's own arithmetic, which acts on codes: after the noise, where there is any.
+pub const FIXED_POINT: &str = fixed_point::EFFECT.name;
+
 /// All effects.
 pub static EFFECTS: &[&Effect] = &[
     &correlation_harmonics::EFFECT,
