@@ -380,7 +380,9 @@ module testbench;
 
     // A set's first frame may follow the drain of the set before: a sample of a pixel whose sums have been taken need not wait.
     // Two samples before it may be on their way; they must be the same frame's.
-    if (rst_n && s_axis_tvalid && !s_axis_tready && first_taken >= 2 && first_taken < drained % PIXELS) needless = needless + 1;
+    // The last two sums may wait in registers after their drain, while the next set is complete already.
+    if (rst_n && s_axis_tvalid && !s_axis_tready && drained % PIXELS + 2 < PIXELS && first_taken >= 2
+        && first_taken < drained % PIXELS) needless = needless + 1;
     else needless = 0;
     if (needless == 4) begin
       mismatches = mismatches + 1;
@@ -538,6 +540,8 @@ module testbench;
     if (burst == 0) begin
       stopped = $unsigned($random(seed)) % 100 < stop;
       burst   = 1 + $unsigned($random(seed)) % 8;
+      // Once in a while one is so long that every register behind it fills up.
+      if (stopped && $unsigned($random(seed)) % 96 == 0) burst = 256;
     end
     burst          = burst - 1;
     sink_ready    <= !stopped;

@@ -11,6 +11,7 @@ mod fault;
 mod proof;
 
 pub use engine::Answer;
+pub(super) use engine::never;
 pub use fault::{FAULTS, Fault};
 pub use proof::{PROOFS, Proof};
 
@@ -40,6 +41,11 @@ impl Finding {
             Answer::Undecided => false,
         }
     }
+
+    /// Whether it shows a fault: a property is violated. One that is not decided shows nothing.
+    pub fn shows_fault(&self) -> bool {
+        !self.cover && matches!(self.answer, Answer::Reached(_))
+    }
 }
 
 /// Asks everything of `proof` on `pipeline`, with `fault` seeded where there is one.
@@ -64,9 +70,18 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
         for (number, what) in proof.names(list).into_iter().filter(|_| !cover || fault.is_none()) {
             let watch = format!("{list}[{number}]");
             let bounded = proof.bounded.iter().find(|&&(bounded, _)| bounded == number);
-            let bound = if cover { Some(proof.cover_clocks) } else { bounded.map(|&(_, clocks)| clocks) };
+            // A fault has to show as soon as everything can happen.
+            let bound = if cover || fault.is_some() {
+                Some(proof.cover_clocks)
+            } else {
+                bounded.map(|&(_, clocks)| clocks)
+            };
             let answer = engine::ask(temporary.path(), &design, &watch, bound)?;
             findings.push(Finding { proof: proof.name, what, cover, answer });
+            // One violation is enough.
+            if fault.is_some() && findings.last().is_some_and(Finding::shows_fault) {
+                return Ok(findings);
+            }
         }
     }
     Ok(findings)

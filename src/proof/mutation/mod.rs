@@ -10,6 +10,7 @@ mod equivalence;
 mod explained;
 mod mutant;
 mod netlist;
+mod outputs;
 mod report;
 
 pub use equivalence::DEPTH;
