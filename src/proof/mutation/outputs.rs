@@ -23,8 +23,9 @@ struct Surrounding {
 
 const SURROUNDINGS: &[Surrounding] = &[Surrounding {
     noun: "accumulator",
-    // Of the proof `framing`: no drain starts in another.
-    never: "drain_start_i && gold_drain_busy_o",
+    // Of the proof `framing`: no drain starts in another, and only a first frame is taken beside one. Of the top, and watched by
+    // the benches: sums that are not valid hold nothing up.
+    never: "(gold_drain_busy_o && (drain_start_i || (take_i && !first_frame_i))) || (!advance_i && !gold_valid_o)",
     valid: "valid_o",
     beside: &["first_o", "last_o", "saturated_o", "in_phase_o", "quadrature_o", "offset_o"],
 }];
@@ -51,7 +52,7 @@ pub(super) fn proved(netlist: &Netlist, mutant: &Mutant) -> Result<bool> {
     }
     let script = format!(
         "read_rtlil modules.il\ncopy {module} gold\ncopy {module} gate\n{}read_verilog miter.v\nhierarchy -check -top miter\n\
-         proc\nflatten\nopt_clean -purge\nmemory_map\nopt_expr\nopt_clean -purge\ntechmap\nopt_expr\ndffunmap\nsimplemap\n\
+         proc\nflatten\nopt_merge\nopt_clean -purge\nmemory_map\nopt_expr\nopt_clean -purge\ntechmap\nopt_expr\ndffunmap\nsimplemap\n\
          setundef -undriven -zero\nsetundef -init -zero\naigmap\nopt_clean\nwrite_aiger -zinit circuit.aig\n",
         local.command("gate", "")
     );
