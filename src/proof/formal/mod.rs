@@ -70,13 +70,12 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
         for (number, what) in proof.names(list).into_iter().filter(|_| !cover || fault.is_none()) {
             let watch = format!("{list}[{number}]");
             let bounded = proof.bounded.iter().find(|&&(bounded, _)| bounded == number);
-            // A fault has to show as soon as everything can happen.
-            let bound = if cover || fault.is_some() {
-                Some(proof.cover_clocks)
-            } else {
-                bounded.map(|&(_, clocks)| clocks)
-            };
-            let answer = engine::ask(temporary.path(), &design, &watch, bound)?;
+            let bound = if cover { Some(proof.cover_clocks) } else { bounded.map(|&(_, clocks)| clocks) };
+            let mut answer = engine::ask(temporary.path(), &design, &watch, bound)?;
+            // A violation may lie too deep for a proof, and yet be found in the clocks in which everything can happen.
+            if fault.is_some() && answer == Answer::Undecided {
+                answer = engine::ask(temporary.path(), &design, &watch, Some(proof.cover_clocks))?;
+            }
             findings.push(Finding { proof: proof.name, what, cover, answer });
             // One violation is enough.
             if fault.is_some() && findings.last().is_some_and(Finding::shows_fault) {
