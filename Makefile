@@ -48,9 +48,9 @@ synth: build ## area and clock frequency of every target (minutes; ACCEPT=1 take
 	bash scripts/hdl-tools.sh synth
 	$(VURIS) synth --out generated $(if $(ACCEPT),--accept)
 
-mutate: setup build ## faults that the benches must kill: docs/mutation-*.md (half an hour)
-	$(VURIS) mutate --spec vuris --out docs
-	$(VURIS) mutate --spec vuris-fast --out docs
+mutate: setup build ## faults that the benches must kill: docs/mutation-*.md (ten minutes)
+	$(VURIS) mutate --spec vuris --per-module 30 --seed 1 --out docs
+	$(VURIS) mutate --spec vuris-fast --per-module 30 --seed 1 --out docs
 
 coverage: setup build ## lines that run and bits that move: docs/coverage-*.md
 	$(VURIS) coverage --spec vuris --out docs

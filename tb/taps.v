@@ -44,6 +44,7 @@ module bench_taps (
   output wire [[ "[" ]][[ bench.announcement_bits - 1 ]]:0] next_frame_o,       // {first of a set, phase step, its phase}
   output wire [[ "[" ]][[ bench.stage_count - 1 ]]:0] strobe_o,         // a pixel passes the stage
   output wire        padding_o,        // a bit between the result's fields is not 0
+  output wire        refused_o,        // an empty register does not take what comes before it
   output wire [[ "[" ]][[ bench.channel_bits - 1 ]]:0] values_o          // what it carries
 );
 
@@ -90,6 +91,7 @@ module bench_taps (
   );
 
   assign padding_o = |(m_axis_tdata & [[ bench.padding ]]);
+  assign refused_o = (!dut.sums_valid && !dut.sums_taken) || (!dut.result_valid && !dut.advance);
 [% for stage in bench.stages %]
   // [[ stage.name ]]
   assign strobe_o[ [[- stage.number -]] ] = [[ stage.strobe ]];

@@ -46,6 +46,7 @@ module bench_taps (
   output wire [19:0] next_frame_o,       // {first of a set, phase step, its phase}
   output wire [3:0] strobe_o,         // a pixel passes the stage
   output wire        padding_o,        // a bit between the result's fields is not 0
+  output wire        refused_o,        // an empty register does not take what comes before it
   output wire [959:0] values_o          // what it carries
 );
 
@@ -90,6 +91,7 @@ module bench_taps (
   );
 
   assign padding_o = |(m_axis_tdata & 88'hfcf8000000000000fc0000);
+  assign refused_o = (!dut.sums_valid && !dut.sums_taken) || (!dut.result_valid && !dut.advance);
 
   // accumulator
   assign strobe_o[0] = dut.sums_valid && dut.sums_taken;

@@ -51,7 +51,9 @@ module testbench;
   reg         s_axis_tlast = 1'b0;
   reg  [1:0]  s_axis_tuser = 2'd0;
   wire        m_axis_tvalid;
-  reg         m_axis_tready = 1'b0;
+  reg         sink_ready = 1'b0;
+  reg         shy = 1'b0;  // the sink is ready for nothing but what is offered
+  wire        m_axis_tready = sink_ready && (!shy || m_axis_tvalid === 1'b1);
   wire [87:0] m_axis_tdata;
   wire        m_axis_tlast;
   wire        m_axis_tuser;
@@ -134,6 +136,7 @@ module testbench;
     if (!$value$plusargs("dump_from=%d", dump_from)) dump_from = 0;
     if (!$value$plusargs("dump_to=%d", dump_to)) dump_to = 2147483647;
     if ($value$plusargs("dump=%s", dump)) dumping = 1'b1;
+    noise_seed = seed + 104729;
     $readmemh("vectors/stimulus.hex", stimulus);
     $readmemh("vectors/epochs.hex", epoch_end);
     $readmemh("vectors/rests.hex", rests);
@@ -163,6 +166,10 @@ module testbench;
   integer word       = 0;  // next line of the stimulus
   integer epoch      = 0;
   integer rest       = 0;
+  integer noise_seed;  // a source of its own, so that it leaves the pauses and stops as they are
+  integer drained    = 0;  // sums taken since reset
+  integer needless   = 0;  // clocks for which a sample has been held without need
+  integer first_taken = -1;  // samples taken since the last start of set, if there was one
   integer stalls     = 0;  // clocks since reset in which a beat was not taken
   integer wait_for   = 4;  // clocks of reset or silence left
   integer run        = 0;  // length of the present pause
@@ -371,6 +378,29 @@ module testbench;
       set_number       = 0;
     end else if (s_axis_tvalid && !s_axis_tready) stalls = stalls + 1;
 
+    // A set's first frame may follow the drain of the set before: a sample of a pixel whose sums have been taken need not wait.
+    // Two samples before it may be on their way; they must be the same frame's.
+    // The last two sums may wait in registers after their drain, while the next set is complete already.
+    if (rst_n && s_axis_tvalid && !s_axis_tready && drained % PIXELS + 2 < PIXELS && first_taken >= 2
+        && first_taken < drained % PIXELS) needless = needless + 1;
+    else needless = 0;
+    if (needless == 4) begin
+      mismatches = mismatches + 1;
+      if (mismatches <= LIMIT) $display("HELD clock=%0d: a sample whose pixel has drained waits", clocks);
+    end
+    if (!rst_n) begin
+      drained     = 0;
+      first_taken = -1;
+    end else if (s_axis_tvalid && s_axis_tready) begin
+      if (s_axis_tuser[1:0] == 2'b11) first_taken = 1;
+      else if (first_taken >= 0) first_taken = first_taken + 1;
+    end
+    if (rst_n && (dut.sums_valid && dut.sums_taken) === 1'b1) drained = drained + 1;
+    if (rst_n && ((!dut.sums_valid && !dut.sums_taken) || (!dut.result_valid && !dut.advance)) !== 1'b0) begin
+      mismatches = mismatches + 1;
+      if (mismatches <= LIMIT) $display("REFUSED clock=%0d: an empty register holds up what comes before it", clocks);
+    end
+
     if (rst_n) begin
       if ((dut.sums_valid && dut.sums_taken) !== 1'b0) begin  // accumulator
         idle = 0;
@@ -502,6 +532,13 @@ module testbench;
       end
     end
 
+    // What is not valid is anything.
+    if (!s_axis_tvalid || s_axis_tready) begin
+      s_axis_tdata <= $random(noise_seed);
+      s_axis_tlast <= $random(noise_seed);
+      s_axis_tuser <= $random(noise_seed);
+    end
+
     // The source, after the checks. A beat stays offered until it is taken; an operation begins when the beat before it has been.
     if (wait_for > 0) begin
       wait_for = wait_for - 1;
@@ -561,9 +598,13 @@ module testbench;
     if (burst == 0) begin
       stopped = $unsigned($random(seed)) % 100 < stop;
       burst   = 1 + $unsigned($random(seed)) % 8;
+      // Once in a while one is so long that every register behind it fills up.
+      if (stopped && $unsigned($random(seed)) % 96 == 0) burst = 256;
     end
     burst          = burst - 1;
-    m_axis_tready <= !stopped;
+    sink_ready    <= !stopped;
+    // While everything comes out, a core that waits for the sink waits for ever.
+    shy           <= resting || word == STIMULUS;
   end
 
 endmodule

@@ -6,6 +6,7 @@ use super::{agreement, progress};
 use crate::artifact::{self, Artifact};
 use crate::problem::Result;
 use crate::proof::mutation::{self, Campaign, Tally};
+use crate::proof::stimulus;
 use crate::spec::Pipeline;
 use clap::Args;
 use std::path::PathBuf;
@@ -35,8 +36,10 @@ impl Mutate {
     pub(super) fn run(self) -> Result<ExitCode> {
         let pipeline = Pipeline::named(&self.spec)?;
         let spec = shown_spec(&self.spec);
-        let campaign = Campaign { per_module: self.per_module as usize, seed: self.seed.into() };
-        let trials = progress::counted("mutants", |advance| mutation::run(&pipeline, campaign, advance))?;
+        let campaign = Campaign { per_module: self.per_module as usize, seed: self.seed.into(), prove: true };
+        let trials = progress::counted("mutants", |advance| {
+            mutation::run(&pipeline, campaign, &|small| stimulus(small, campaign.seed), advance)
+        })?;
         let page = mutation::report(&spec, campaign, &trials);
         say!("{}", page.trim_end());
         if let Some(folder) = &self.out {

@@ -3,7 +3,7 @@
 use super::print::say;
 use super::{agreement, progress};
 use crate::problem::{Problem, Result};
-use crate::proof::formal::{self, FAULTS, PROOFS};
+use crate::proof::formal::{self, FAULTS, Finding, PROOFS};
 use crate::spec::Pipeline;
 use clap::Args;
 use std::process::ExitCode;
@@ -42,7 +42,7 @@ impl Prove {
             }
             for fault in FAULTS.iter().filter(|fault| fault.proof == proof.name && !self.no_faults) {
                 let findings = progress::during(fault.name, || formal::prove(&pipeline, proof, Some(fault)))?;
-                match findings.iter().find(|finding| !finding.holds()) {
+                match findings.iter().find(|finding| finding.shows_fault()) {
                     Some(seen) => say!(
                         "  seen:  {}: {}: {} violated {}",
                         fault.noun,
@@ -52,7 +52,7 @@ impl Prove {
                     ),
                     None => say!("  MISSED: {}: {}", fault.noun, fault.name),
                 }
-                agrees &= findings.iter().any(|finding| !finding.holds());
+                agrees &= findings.iter().any(Finding::shows_fault);
             }
         }
         Ok(agreement(agrees))

@@ -69,6 +69,9 @@ struct Bench {
     user_bits: u32,
     stimulus_bits: u32,
     sample_bus: u32,
+    /// Ones for every bit of `s_axis_tdata` and of `s_axis_tuser`.
+    sample_mask: u32,
+    user_mask: u32,
     result_bits: u32,
     padding: String,
 }
@@ -135,6 +138,8 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
         })
         .collect();
     let (step_bits, phase_step_bits) = (Counters::new(source).step_bits, pipeline.modulation.phase_step_bits);
+    let user_bits = if unwraps(pipeline) { 3 } else { 2 };
+    let sample_bus = pipeline.derived().sample.bits.next_multiple_of(8);
     let first_announcement = announcement_word(source, next_frame(pipeline, 0));
     Bench {
         banner: String::new(),
@@ -162,9 +167,11 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
         pixels: pipeline.geometry().pixels(),
         width: pipeline.sensor.width,
         silence: pipeline.sensor.line_blanking_clocks,
-        user_bits: if unwraps(pipeline) { 3 } else { 2 },
+        user_bits,
         stimulus_bits: stimulus_bits(pipeline),
-        sample_bus: pipeline.derived().sample.bits.next_multiple_of(8),
+        sample_bus,
+        sample_mask: (1 << sample_bus) - 1,
+        user_mask: (1 << user_bits) - 1,
         result_bits: result_bits(pipeline),
         padding: padding(pipeline),
     }

@@ -1,10 +1,10 @@
 //! Every derived number of a pipeline, with its reason, as a table that an engineer can check by hand.
 
 use super::angle_explanation::angle;
+use super::table::aligned;
 use crate::hdl::{result_bits, result_fields};
 use crate::spec::{Pipeline, REGISTER_BYTES, REGISTERS, SHARE_BITS, SchemeOrigin, Word, exact};
 use crate::units::unambiguous_range_m;
-use comfy_table::{ContentArrangement, Table, presets};
 use std::f64::consts::TAU;
 
 /// A table of quantity, value and reason.
@@ -26,11 +26,7 @@ impl Section {
     }
 
     fn text(&self) -> String {
-        let mut table = Table::new();
-        table.load_style(presets::ASCII_MARKDOWN).set_content_arrangement(ContentArrangement::Disabled);
-        table.set_header([self.title, "value", "why"]);
-        table.add_rows(&self.rows);
-        format!("{table}\n")
+        format!("{}\n", aligned([self.title, "value", "why"], &self.rows))
     }
 }
 

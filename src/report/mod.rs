@@ -14,6 +14,7 @@ mod scale;
 mod svg;
 mod sweep;
 mod synthesis;
+mod table;
 
 pub use algorithms::{
     Bench, algorithm_explanation, algorithms_json, algorithms_picture, algorithms_table, curves_csv,

@@ -1,8 +1,10 @@
 //! The paper's experiments: its numbers beside measured ones, tables, and a picture a figure.
 
+use super::scale::round_up;
 use super::svg::{MARGIN, Svg, WIDTH};
+use super::table::csv_text;
 use crate::paper::{Figure, Plot, Quantity, Stroke, Table, mm};
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 
 const COLOURS: [&str; 4] = ["#0969da", "#bc4c00", "#1a7f37", "#8250df"];
 const HEIGHT: f64 = 520.0;
@@ -55,22 +57,12 @@ pub fn markdown_table(table: &Table) -> String {
     format!("## {}\n\n{}{gap}{notes}", table.title, markdown_rows(table))
 }
 
-fn csv_of(rows: impl Iterator<Item = Vec<String>>) -> Result<String> {
-    let refused = |error: String| Problem::at("CSV", error).expected("rows of equal length");
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(&row).map_err(|error| refused(error.to_string()))?;
-    }
-    let bytes = writer.into_inner().map_err(|error| refused(error.to_string()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
 /// `table` as CSV.
 ///
 /// # Errors
 /// Rows that are not as long as the head.
 pub fn table_csv(table: &Table) -> Result<String> {
-    csv_of(std::iter::once(&table.head).chain(&table.rows).cloned())
+    csv_text(std::iter::once(&table.head).chain(&table.rows).cloned())
 }
 
 /// All points of `figure` as CSV: curve, abscissa, ordinate.
@@ -82,7 +74,7 @@ pub fn figure_csv(figure: &Figure) -> Result<String> {
     let points = figure.plots.iter().flat_map(|plot| {
         plot.points.iter().map(|(x, y)| vec![plot.name.clone(), format!("{x:.6}"), format!("{y:.6}")])
     });
-    csv_of(std::iter::once(head).chain(points))
+    csv_text(std::iter::once(head).chain(points))
 }
 
 /// An axis: its ends, and where its ticks are.
@@ -99,10 +91,7 @@ impl Axis {
             .filter(|value| value.is_finite())
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
         let (low, high) = if low < high { (low, high) } else { (-1.0, 1.0) };
-        let rough = (high - low) / TICKS;
-        let decade = 10f64.powf(rough.log10().floor());
-        let step = [1.0, 2.0, 5.0, 10.0].map(|part| part * decade).into_iter().find(|step| *step >= rough);
-        let step = step.unwrap_or(rough);
+        let step = round_up((high - low) / TICKS, &[1.0, 2.0, 5.0]);
         Self { low: (low / step + 1e-9).floor() * step, high: (high / step - 1e-9).ceil() * step, step }
     }
 

@@ -45,7 +45,7 @@ pub fn error_limit<'a>(errors_m: impl Iterator<Item = &'a f64>) -> f64 {
 }
 
 /// The least of `mantissas` times a power of ten that is not below `value` (> 0).
-fn round_up(value: f64, mantissas: &[f64]) -> f64 {
+pub fn round_up(value: f64, mantissas: &[f64]) -> f64 {
     let decade = 10f64.powi(value.log10().floor() as i32);
     let enough = |mantissa: &&f64| **mantissa * decade >= value * (1.0 - 1e-9);
     mantissas.iter().find(enough).map_or(10.0 * decade, |mantissa| mantissa * decade)

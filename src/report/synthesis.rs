@@ -1,8 +1,9 @@
 //! A measurement of area and speed as tables in Markdown: a function of the baseline and of the peers' table alone.
 
+use super::table::aligned;
 use crate::synthesis::{Accuracy, Baseline, Family, Kind, LIMIT_PERCENT, Mapped, Measured, Peer, Speed};
 use crate::synthesis::{command_lines, peers};
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use comfy_table::CellAlignment;
 use std::fmt::Write;
 
 /// Columns of the table of what was measured.
@@ -41,10 +42,7 @@ const COMPARED: [&str; 14] = [
 
 /// Rows under a header, numbers to the right.
 fn table<const COLUMNS: usize>(header: [&str; COLUMNS], rows: &[[String; COLUMNS]]) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header);
-    table.add_rows(rows);
+    let mut table = aligned(header, rows);
     let is_number =
         |cell: &String| cell.is_empty() || cell.starts_with(|c: char| c.is_ascii_digit() || c == '-');
     for (number, column) in table.column_iter_mut().enumerate() {

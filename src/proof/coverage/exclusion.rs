@@ -5,7 +5,7 @@ use super::{Kind, Point};
 /// A signal whose bits from some place on cannot be moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Exclusion {
-    /// The signal's name in any module, before `_q`, `_o`, `_d` or nothing.
+    /// The signal's name in any module, before `_q`, `_o`, `_d`, `_i` or nothing.
     pub signal: &'static str,
     /// The lowest bit that is excluded.
     pub from_bit: usize,
@@ -21,6 +21,8 @@ pub const EXCLUSIONS: &[Exclusion] = &[
     Exclusion { signal: "sets_done", from_bit: 4, reason: LONG },
     Exclusion { signal: "sets_discarded", from_bit: 4, reason: LONG },
     Exclusion { signal: "stall_clocks", from_bit: 8, reason: LONG },
+    Exclusion { signal: "saturated_pixels", from_bit: 5, reason: LONG },
+    Exclusion { signal: "set_number", from_bit: 4, reason: LONG },
     Exclusion {
         signal: "unused_bits",
         from_bit: 0,
@@ -32,7 +34,8 @@ impl Exclusion {
     /// Whether it excludes `point`.
     pub fn covers(&self, point: &Point) -> bool {
         let name = point.signal();
-        let stem = ["_q", "_o", "_d"].iter().find_map(|ending| name.strip_suffix(ending)).unwrap_or(name);
+        let stem =
+            ["_q", "_o", "_d", "_i"].iter().find_map(|ending| name.strip_suffix(ending)).unwrap_or(name);
         point.kind == Kind::Toggle && stem == self.signal && point.bit() >= self.from_bit
     }
 }

@@ -64,9 +64,7 @@ pub(super) fn ask(folder: &Path, design: &Design, watch: &str, bound: Option<u32
         None => format!("scorr; pdr -T {PATIENCE_S}"),
         Some(clocks) => format!("bmc3 -F {clocks} -T {PATIENCE_S}"),
     };
-    let mut command = Command::new(find(ABC)?);
-    command.current_dir(folder).args(["-q", &format!("read circuit.aig; strash; {question}")]);
-    let (_, said) = output(&mut command)?;
+    let said = abc(folder, &question)?;
     let reached = said.split("was asserted in frame ").nth(1);
     let reached = reached.and_then(|rest| rest.split(['.', ' ']).next()?.parse().ok());
     if let Some(clock) = reached {
@@ -81,4 +79,17 @@ pub(super) fn ask(folder: &Path, design: &Design, watch: &str, bound: Option<u32
     } else {
         Ok(Answer::Undecided)
     }
+}
+
+/// What ABC says to `question` about the circuit in `folder`.
+fn abc(folder: &Path, question: &str) -> Result<String> {
+    let mut command = Command::new(find(ABC)?);
+    command.current_dir(folder).args(["-q", &format!("read circuit.aig; strash; {question}")]);
+    Ok(output(&mut command)?.1)
+}
+
+/// Whether ABC proves in so many seconds that the only output of `circuit.aig` in `folder` is never 1.
+pub(in crate::proof) fn never(folder: &Path, patience_s: u32) -> Result<bool> {
+    let said = abc(folder, &format!("scorr; pdr -T {patience_s}"))?;
+    Ok(said.contains("Property proved"))
 }

@@ -11,6 +11,7 @@ mod fault;
 mod proof;
 
 pub use engine::Answer;
+pub(super) use engine::never;
 pub use fault::{FAULTS, Fault};
 pub use proof::{PROOFS, Proof};
 
@@ -40,6 +41,11 @@ impl Finding {
             Answer::Undecided => false,
         }
     }
+
+    /// Whether it shows a fault: a property is violated. One that is not decided shows nothing.
+    pub fn shows_fault(&self) -> bool {
+        !self.cover && matches!(self.answer, Answer::Reached(_))
+    }
 }
 
 /// Asks everything of `proof` on `pipeline`, with `fault` seeded where there is one.
@@ -65,8 +71,16 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
             let watch = format!("{list}[{number}]");
             let bounded = proof.bounded.iter().find(|&&(bounded, _)| bounded == number);
             let bound = if cover { Some(proof.cover_clocks) } else { bounded.map(|&(_, clocks)| clocks) };
-            let answer = engine::ask(temporary.path(), &design, &watch, bound)?;
+            let mut answer = engine::ask(temporary.path(), &design, &watch, bound)?;
+            // A violation may lie too deep for a proof, and yet be found in the clocks in which everything can happen.
+            if fault.is_some() && answer == Answer::Undecided {
+                answer = engine::ask(temporary.path(), &design, &watch, Some(proof.cover_clocks))?;
+            }
             findings.push(Finding { proof: proof.name, what, cover, answer });
+            // One violation is enough.
+            if fault.is_some() && findings.last().is_some_and(Finding::shows_fault) {
+                return Ok(findings);
+            }
         }
     }
     Ok(findings)

@@ -14,7 +14,18 @@ pub struct Explanation {
 }
 
 /// All of them.
-pub const EXPLAINED: &[Explanation] = &[];
+pub const EXPLAINED: &[Explanation] = &[
+    Explanation {
+        noun: "accumulator",
+        source: "drain_busy_q ? drain_read : take_i",
+        reason: "a word read without a sample is not used: a sum is formed in the clock after a sample was taken, or written nowhere",
+    },
+    Explanation {
+        noun: "amplitude",
+        source: "zero_q ? {AMPLITUDE_BITS{1'b0}} : rounded",
+        reason: "a vector of 0 leaves the CORDIC with length 0, so that its amplitude is 0 without the choice",
+    },
+];
 
 /// The explanation of a trial's survival.
 pub(super) fn explanation(trial: &Trial) -> Option<&'static Explanation> {

@@ -10,6 +10,7 @@ mod equivalence;
 mod explained;
 mod mutant;
 mod netlist;
+mod outputs;
 mod report;
 
 pub use equivalence::DEPTH;
@@ -17,8 +18,8 @@ pub use explained::{EXPLAINED, Explanation};
 pub use mutant::Mutant;
 pub use report::{Tally, report};
 
-use super::{small, stimulus};
-use crate::hdl::{Golden, Source};
+use super::small;
+use crate::hdl::{Golden, Scenario, Source};
 use crate::problem::{Problem, Result};
 use crate::spec::Pipeline;
 use bench::Bench;
@@ -42,8 +43,10 @@ pub enum Verdict {
 pub struct Campaign {
     /// Mutants drawn for each module.
     pub per_module: usize,
-    /// Seed of the drawing, and of the stimulus.
+    /// Seed of the drawing.
     pub seed: u64,
+    /// Whether survivors may be proved equivalent; if not, they all count as survivors.
+    pub prove: bool,
 }
 
 /// A mutant that was tried.
@@ -57,10 +60,12 @@ pub struct Trial {
     pub verdict: Verdict,
 }
 
-/// Runs the campaign on `pipeline` with a small sensor; `progress` is told how many of how many are done.
+/// Runs the campaign on `pipeline` with a small sensor, driven with what `stimulus` makes for that; `progress` is told how many
+/// of how many are done.
 pub fn run(
     pipeline: &Pipeline,
     campaign: Campaign,
+    stimulus: &dyn Fn(&Pipeline) -> Scenario,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Vec<Trial>> {
     let pipeline = small(pipeline)?;
@@ -76,7 +81,7 @@ pub fn run(
     let netlist = Netlist::new(&source, netlist_folder.path(), false)?;
     let late_netlist = Netlist::new(&source, late_netlist_folder.path(), true)?;
     let mutants = netlist.draw(campaign.per_module, campaign.seed)?;
-    let golden = Golden::new(&pipeline, &stimulus(&pipeline, campaign.seed));
+    let golden = Golden::new(&pipeline, &stimulus(&pipeline));
     let bench = Bench::build(source, &golden, &netlist, &mutants, bench_folder.path(), false)?;
     let late = Bench::build(source, &golden, &late_netlist, &mutants, late_bench_folder.path(), true)?;
     let done = AtomicUsize::new(0);
@@ -85,7 +90,7 @@ pub fn run(
         if verdict == Verdict::Survived {
             verdict = late.run(number + 1)?;
         }
-        if verdict == Verdict::Survived && equivalence::proved(&netlist, mutant)? {
+        if verdict == Verdict::Survived && campaign.prove && equivalence::proved(&netlist, mutant)? {
             verdict = Verdict::Equivalent;
         }
         progress(done.fetch_add(1, Ordering::Relaxed) + 1, mutants.len());

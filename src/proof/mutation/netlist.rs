@@ -47,7 +47,7 @@ impl<'a> Netlist<'a> {
         let top = source.pipeline.top();
         // Cells get the names of their places before the hierarchy goes; a memory is whole, so that it can be mutated.
         let script = format!(
-            "read_verilog {}\nhierarchy -check -top {top}\nproc\nopt_clean\nmemory -nomap\nopt_clean\nrename -src\nflatten\n\
+            "read_verilog {}\nhierarchy -check -top {top}\nproc\nopt_clean\nmemory -nomap\nopt_clean\nrename -src\nwrite_rtlil modules.il\nflatten\n\
              opt_clean\nwrite_rtlil flat.il\nmutate -list 100000000 -o mutants.txt\n",
             files.join(" ")
         );

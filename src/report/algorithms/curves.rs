@@ -1,7 +1,8 @@
 //! Sensitivity curves as CSV.
 
+use super::super::table::csv_text;
 use crate::algorithms::{Algorithm, Curve};
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::units::unambiguous_range_m;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -40,10 +41,8 @@ impl fmt::Display for Bench {
 
 /// All curves of `algorithms` as CSV text, a line a point.
 pub fn curves_csv(algorithms: &[Algorithm], bench: &Bench) -> Result<String> {
-    let cannot = |error: csv::Error| Problem::at("CSV", format_args!("cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let header = ["algorithm", "curve", "unit", "value", "mean_mrad", "rms_mrad", "peak_mrad"];
-    writer.write_record(header).map_err(cannot)?;
+    let mut rows = vec![header.map(str::to_owned)];
     for algorithm in algorithms {
         for curve in Curve::ALL {
             let (name, unit) = curve.axis();
@@ -51,13 +50,10 @@ pub fn curves_csv(algorithms: &[Algorithm], bench: &Bench) -> Result<String> {
                 let errors = [error.mean_rad, error.rms_rad, error.peak_rad];
                 // Adding 0 takes the sign off a zero.
                 let [mean, rms, peak] = errors.map(|rad| format!("{:.6}", (1e9 * rad).round() / 1e6 + 0.0));
-                let value = format!("{value}");
-                writer
-                    .write_record([&algorithm.name, name, unit, &value, &mean, &rms, &peak])
-                    .map_err(cannot)?;
+                let [name, unit] = [name, unit].map(str::to_owned);
+                rows.push([algorithm.name.clone(), name, unit, value.to_string(), mean, rms, peak]);
             }
         }
     }
-    let bytes = writer.into_inner().map_err(|error| Problem::at("CSV", error))?;
-    String::from_utf8(bytes).map_err(|error| Problem::at("CSV", error))
+    csv_text(rows)
 }

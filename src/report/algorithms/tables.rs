@@ -1,16 +1,8 @@
 //! Tables of algorithms and of designed rows.
 
+use super::super::table::aligned;
 use super::words;
 use crate::algorithms::{Algorithm, Design, Verdict};
-use comfy_table::{ContentArrangement, Table, presets};
-
-fn table(header: &[&str], rows: Vec<Vec<String>>) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header);
-    table.add_rows(rows);
-    table.to_string()
-}
 
 /// A row for each of `algorithms`, with the verdict of its roots.
 pub fn algorithms_table(algorithms: &[Algorithm]) -> String {
@@ -41,7 +33,7 @@ pub fn algorithms_table(algorithms: &[Algorithm]) -> String {
             words::weights(algorithm),
         ]
     };
-    table(&header, algorithms.iter().map(row).collect())
+    aligned(header, algorithms.iter().map(row)).to_string()
 }
 
 /// The highest power of a step error without a swing: one less than the root's multiplicity.
@@ -82,5 +74,5 @@ pub fn design_table(designs: &[Design]) -> String {
             words::rows(&design.scheme),
         ]
     };
-    table(&header, designs.iter().map(row).collect())
+    aligned(header, designs.iter().map(row)).to_string()
 }

@@ -1,5 +1,6 @@
 //! A sweep's columns as CSV and as Parquet.
 
+use super::super::table::csv_text;
 use super::columns::{Column, Values};
 use crate::problem::{Problem, Result};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
@@ -17,19 +18,14 @@ pub fn sweep_csv(columns: &[Column]) -> Result<String> {
         Values::Reals(values) => values.len(),
         Values::Texts(values) => values.len(),
     });
-    let cannot = |error: csv::Error| Problem::at("CSV", format_args!("cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(columns.iter().map(|column| column.name.as_str())).map_err(cannot)?;
-    for row in 0..rows {
-        let cell = |column: &Column| match &column.values {
-            Values::Integers(values) => values[row].to_string(),
-            Values::Reals(values) => values[row].to_string(),
-            Values::Texts(values) => values[row].clone(),
-        };
-        writer.write_record(columns.iter().map(cell)).map_err(cannot)?;
-    }
-    let bytes = writer.into_inner().map_err(|error| Problem::at("CSV", error))?;
-    String::from_utf8(bytes).map_err(|error| Problem::at("CSV", error))
+    let cell = |column: &Column, row: usize| match &column.values {
+        Values::Integers(values) => values[row].to_string(),
+        Values::Reals(values) => values[row].to_string(),
+        Values::Texts(values) => values[row].clone(),
+    };
+    let header: Vec<String> = columns.iter().map(|column| column.name.clone()).collect();
+    let line = |row| columns.iter().map(|column| cell(column, row)).collect();
+    csv_text(std::iter::once(header).chain((0..rows).map(line)))
 }
 
 /// The columns as a Parquet file of one row group, every column required, texts as UTF-8, without compression.

@@ -1,16 +1,8 @@
 //! A sweep's tables: the Pareto front, and one configuration octave by octave.
 
+use super::super::table::aligned;
 use super::columns::units;
 use crate::sweep::{Coverage, Point, pareto_front, rounding_name, throughput_name};
-use comfy_table::{ContentArrangement, Table, presets};
-
-fn table(header: &[&str], rows: Vec<Vec<String>>) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header);
-    table.add_rows(rows);
-    table.to_string()
-}
 
 /// Four significant digits, or none where there is nothing.
 fn digits(value: f64) -> String {
@@ -75,10 +67,8 @@ pub fn front_table(points: &[Point], frequency_hz: f64) -> String {
         }
         cells
     };
-    table(
-        &header.map(|text| text as &str),
-        pareto_front(points).into_iter().map(|place| row(&points[place])).collect(),
-    )
+    let rows = pareto_front(points).into_iter().map(|place| row(&points[place]));
+    aligned(header.map(|text| text as &str), rows).to_string()
 }
 
 /// The errors of `point`, octave by octave.
@@ -136,6 +126,6 @@ pub fn octave_table(point: &Point, frequency_hz: f64) -> String {
         point.configuration,
         point.area.luts,
         point.area.source.name(),
-        table(&header, rows.collect())
+        aligned(header, rows)
     )
 }
