@@ -34,6 +34,7 @@
 //! | [`physics`] | the forward simulator of raw frames, and its effects, one file each |
 //! | [`bench`](mod@bench) | recordings and the simulator together: campaigns, what each effect does to perfect data |
 //! | [`paper`] | the camera's paper computed again: each figure and table, the open question, the rivals |
+//! | [`diagnose`] | where recordings and simulation disagree, and which physics was left out |
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |

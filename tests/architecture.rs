@@ -14,14 +14,15 @@ const EDGES: &Edges = &[
     ("main", "cli"),
     (
         "cli",
-        "algorithms artifact bench cosim frames hdl model package paper physics problem proof ranging recording reference report spec \
+        "algorithms artifact bench cosim diagnose frames hdl model package paper physics problem proof ranging recording reference report spec \
          sweep synthesis units",
     ),
     ("package", "artifact hdl report spec units"),
-    ("report", "algorithms bench frames hdl paper physics problem spec sweep synthesis units"),
+    ("report", "algorithms bench diagnose frames hdl paper physics problem spec sweep synthesis units"),
     ("algorithms", "problem spec units"),
     ("bench", "frames physics problem recording spec units"),
     ("paper", "algorithms frames physics problem units"),
+    ("diagnose", "bench frames physics problem recording spec units"),
     ("ranging", "problem recording reference units"),
     ("proof", "artifact cosim frames hdl problem spec"),
     ("sweep", "model physics problem spec units"),
@@ -45,7 +46,7 @@ const LAYERS: &[&str] = &[
     "main",
     "cli",
     "package proof report",
-    "ranging",
+    "diagnose ranging",
     "bench paper sweep synthesis",
     "cosim hdl physics recording",
     "algorithms model reference",

@@ -50,6 +50,7 @@ fn moments() -> Vec<Moment> {
 fn memory(chain: &Chain, deviate: f64) -> Memory {
     let pixels = chain.pixels.count();
     Memory {
+        noisy: false,
         before_dn: Some(Arc::new(Draws::of(1, 1).normal(pixels).iter().map(|d| 300.0 + 50.0 * d).collect())),
         deviates: vec![deviate; chain.effects.len()],
         pixel_deviates: Draws::of(2, 1).normal(pixels).iter().map(|d| deviate * d).collect(),

@@ -109,7 +109,7 @@ impl Clusters {
                 add(&mut self.evidence[whitened.take][level + 1][mode], informed, mode, sums);
             }
         }
-        if (whitened.index + 1) % take.frames == 0 {
+        if (whitened.index + 1).is_multiple_of(take.frames) {
             for (mode, sum) in std::mem::take(&mut self.set).into_iter().enumerate() {
                 let informed = &mut self.information[0][mode];
                 add(&mut self.evidence[whitened.take][0][mode], informed, mode, &[sum]);

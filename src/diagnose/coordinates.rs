@@ -2,12 +2,15 @@
 //!
 //! A column is a way in which frames may be off (more light, more signal, another phase) times a function of the coordinate.
 
-use super::columns::{Frame, OWN};
-use super::data::Data;
+use super::columns::Frame;
+use super::ranges::{Ranges, way_m};
 use crate::frames::Geometry;
 use crate::physics::{Moment, Pixels, cos_sin};
 use crate::units::phase_rad;
 use std::f64::consts::TAU;
+
+/// Columns that act in a frame, by their numbers, with a value a pixel.
+pub type Acting = Vec<(usize, Vec<f64>)>;
 
 /// What a column may be made of, in one frame.
 pub struct View<'a> {
@@ -23,65 +26,6 @@ pub struct View<'a> {
     pub ranges: &'a Ranges,
 }
 
-/// What the coordinates range over in a campaign.
-#[derive(Debug, Clone)]
-pub struct Ranges {
-    geometry: Geometry,
-    /// Position of the target plane, m.
-    position_m: (f64, f64),
-    /// Greatest speed, m/s.
-    speed_m_s: f64,
-    /// Duration of each recording, s.
-    duration_s: Vec<f64>,
-    /// Frames a set of each recording, and the first number of its frames among those of all schemes.
-    frames: Vec<(usize, usize)>,
-    /// Frames of all schemes together.
-    frame_numbers: usize,
-    /// Natural logarithm of the amplitude.
-    ln_amplitude: (f64, f64),
-    full_scale_dn: f64,
-}
-
-impl Ranges {
-    /// Of the frames of `data`, seen by `pixels`.
-    pub fn of(data: &Data, pixels: &Pixels) -> Self {
-        let moments = || data.takes.iter().flat_map(|take| &take.moments);
-        let ends = |values: &mut dyn Iterator<Item = f64>| {
-            let (low, high) =
-                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-            if low < high { (low, high) } else { (low - 0.5, low + 0.5) }
-        };
-        let position_m = ends(&mut moments().map(|moment| moment.position_m + way_m(moment)));
-        let light = |pixel: usize| {
-            let range_m = pixels.obliquity[pixel];
-            (pixels.amplitude_1m_dn[pixel].max(1e-3) / (range_m * range_m)).ln()
-        };
-        let targets = (0..pixels.count()).filter(|&pixel| pixels.target[pixel]);
-        let at_1m = ends(&mut targets.map(light));
-        let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
-        schemes.sort_unstable();
-        schemes.dedup();
-        let first = |frames: usize| schemes.iter().take_while(|&&other| other < frames).sum();
-        Self {
-            geometry: data.geometry(),
-            position_m,
-            speed_m_s: moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max),
-            duration_s: data.takes.iter().map(|t| t.moments.last().map_or(0.0, |m| m.time_s)).collect(),
-            frames: data.takes.iter().map(|take| (take.frames, first(take.frames))).collect(),
-            frame_numbers: schemes.iter().sum(),
-            ln_amplitude: (
-                at_1m.0 - 2.0 * position_m.1.max(1e-3).ln(),
-                at_1m.1 - 2.0 * position_m.0.max(1e-3).ln(),
-            ),
-            full_scale_dn: pixels.full_scale_dn,
-        }
-    }
-}
-
-fn way_m(moment: &Moment) -> f64 {
-    moment.velocity_m_s * moment.in_set_s
-}
-
 /// A coordinate.
 pub struct Coordinate {
     /// Its name in a verdict.
@@ -89,7 +33,7 @@ pub struct Coordinate {
     /// How many columns it has.
     pub columns: fn(&Ranges) -> usize,
     /// The columns that act in a frame.
-    pub fill: fn(&View) -> Vec<(usize, Vec<f64>)>,
+    pub fill: fn(&View) -> Acting,
     /// What a column looks like, in words.
     pub shape: fn(&Ranges, usize) -> String,
 }
@@ -106,7 +50,7 @@ fn mode(view: &View, mode: usize) -> Vec<f64> {
 }
 
 /// Columns of all modes, for functions of the frame alone: `(number of the function, its value)`.
-fn by_frame(view: &View, of: usize, functions: &[(usize, f64)]) -> Vec<(usize, Vec<f64>)> {
+fn by_frame(view: &View, of: usize, functions: &[(usize, f64)]) -> Acting {
     let mut columns = Vec::new();
     for number in 0..MODES.len() {
         let base = mode(view, number);
@@ -118,7 +62,7 @@ fn by_frame(view: &View, of: usize, functions: &[(usize, f64)]) -> Vec<(usize, V
 }
 
 /// Columns of all modes, for functions of the pixel.
-fn by_pixel(view: &View, of: usize, function: impl Fn(usize) -> Vec<(usize, f64)>) -> Vec<(usize, Vec<f64>)> {
+fn by_pixel(view: &View, of: usize, function: impl Fn(usize) -> Vec<(usize, f64)>) -> Acting {
     let count = view.frame.base.len();
     let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; MODES.len() * of];
     let modes: Vec<Vec<f64>> = (0..MODES.len()).map(|number| mode(view, number)).collect();
@@ -293,7 +237,7 @@ fn amplitude_dn(view: &View) -> Vec<f64> {
 }
 
 /// Phase: of the range (not of the offset) in cycles a turn as phase and gain errors, and of the waveform.
-fn phase(view: &View) -> Vec<(usize, Vec<f64>)> {
+fn phase(view: &View) -> Acting {
     let moment = view.moment;
     let position_m = moment.position_m + way_m(moment);
     let count = view.frame.base.len();
@@ -335,7 +279,7 @@ fn phase_shape(_: &Ranges, column: usize) -> String {
     }
 }
 
-fn by_line(view: &View, along: impl Fn(usize) -> f64) -> Vec<(usize, Vec<f64>)> {
+fn by_line(view: &View, along: impl Fn(usize) -> f64) -> Acting {
     let moment = view.moment;
     let changes = [
         moment.velocity_m_s / view.ranges.speed_m_s.max(1e-9),
@@ -358,7 +302,7 @@ fn line_shape(_: &Ranges, column: usize) -> String {
 /// Periods of patterns in the code, DN.
 const PATTERNS: [f64; 6] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
 
-fn code(view: &View) -> Vec<(usize, Vec<f64>)> {
+fn code(view: &View) -> Acting {
     let base = &view.frame.base;
     let mut columns: Vec<Vec<f64>> = vec![vec![0.0; base.len()]; CODES + 2 * PATTERNS.len()];
     for (pixel, &signal) in base.iter().enumerate() {
@@ -389,7 +333,7 @@ fn code_shape(ranges: &Ranges, column: usize) -> String {
 const NEIGHBOURS: [&str; 4] =
     ["neighbours beside", "neighbours above and below", "neighbours that are brighter", "the whole image"];
 
-fn neighbours(view: &View) -> Vec<(usize, Vec<f64>)> {
+fn neighbours(view: &View) -> Acting {
     let base = &view.frame.base;
     let Geometry { width, height } = view.ranges.geometry;
     let mean = base.iter().sum::<f64>() / base.len().max(1) as f64;
@@ -406,5 +350,3 @@ fn neighbours(view: &View) -> Vec<(usize, Vec<f64>)> {
     }
     columns.into_iter().enumerate().collect()
 }
-
-const _: () = assert!(OWN == 4);

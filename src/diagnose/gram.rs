@@ -1,6 +1,7 @@
 //! One pass over the data: the normal equations of all columns, with the pixels' own numbers projected out.
 
 use super::columns::{Frame, OWN, Tangents};
+use super::coordinates::Acting;
 use super::data::Data;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
@@ -34,7 +35,7 @@ struct Block {
 }
 
 /// What blocks have in a frame: columns by their numbers, where they act.
-pub type Filled = Vec<Vec<(usize, Vec<f64>)>>;
+pub type Filled = Vec<Acting>;
 
 /// One frame, whitened.
 pub struct Whitened<'a> {

@@ -154,7 +154,7 @@ pub fn judge(data: &Data, stated: Noise) -> Judgement {
 fn noise_excess(data: &Data, location: &Location) -> Option<Cluster> {
     let real = location.clusters.iter().find(|cluster| is_real(data, cluster))?;
     let ordered = location.columns.first().map_or(0.0, |columns| columns.ln_bayes);
-    (real.level == Level::Pixel && ordered < ORDERED_SHARE * real.ln_bayes).then(|| *real)
+    (real.level == Level::Pixel && ordered < ORDERED_SHARE * real.ln_bayes).then_some(*real)
 }
 
 fn is_real(data: &Data, cluster: &Cluster) -> bool {

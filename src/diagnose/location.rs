@@ -2,12 +2,13 @@
 
 use super::clusters::{Cluster, Clusters};
 use super::columns::Tangents;
-use super::coordinates::{COORDINATES, Ranges, View};
+use super::coordinates::{COORDINATES, View};
 use super::data::Data;
 use super::evidence::{Block, Evidence};
 use super::fit::Fit;
 use super::gram::{Gram, Noise, Projected, Whitened};
 use super::profiles::{Bounds, Profile, Profiles};
+use super::ranges::Ranges;
 
 /// A coordinate that explains something.
 #[derive(Debug, Clone)]

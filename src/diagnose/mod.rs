@@ -13,6 +13,7 @@ mod lines;
 mod location;
 mod pieces;
 mod profiles;
+mod ranges;
 mod search;
 mod verdict;
 

@@ -1,0 +1,67 @@
+//! What the coordinates range over in a campaign.
+
+use super::data::Data;
+use crate::frames::Geometry;
+use crate::physics::{Moment, Pixels};
+
+/// What the coordinates range over in a campaign.
+#[derive(Debug, Clone)]
+pub struct Ranges {
+    /// The sensor's pixels.
+    pub geometry: Geometry,
+    /// Position of the target plane, m.
+    pub position_m: (f64, f64),
+    /// Greatest speed, m/s.
+    pub speed_m_s: f64,
+    /// Duration of each recording, s.
+    pub duration_s: Vec<f64>,
+    /// Frames a set of each recording, and the first number of its frames among those of all schemes.
+    pub frames: Vec<(usize, usize)>,
+    /// Frames of all schemes together.
+    pub frame_numbers: usize,
+    /// Natural logarithm of the amplitude.
+    pub ln_amplitude: (f64, f64),
+    /// Signal at the converter's full scale, DN.
+    pub full_scale_dn: f64,
+}
+
+impl Ranges {
+    /// Of the frames of `data`, seen by `pixels`.
+    pub fn of(data: &Data, pixels: &Pixels) -> Self {
+        let moments = || data.takes.iter().flat_map(|take| &take.moments);
+        let ends = |values: &mut dyn Iterator<Item = f64>| {
+            let (low, high) =
+                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+            if low < high { (low, high) } else { (low - 0.5, low + 0.5) }
+        };
+        let position_m = ends(&mut moments().map(|moment| moment.position_m + way_m(moment)));
+        let light = |pixel: usize| {
+            let range_m = pixels.obliquity[pixel];
+            (pixels.amplitude_1m_dn[pixel].max(1e-3) / (range_m * range_m)).ln()
+        };
+        let targets = (0..pixels.count()).filter(|&pixel| pixels.target[pixel]);
+        let at_1m = ends(&mut targets.map(light));
+        let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
+        schemes.sort_unstable();
+        schemes.dedup();
+        let first = |frames: usize| schemes.iter().take_while(|&&other| other < frames).sum();
+        Self {
+            geometry: data.geometry(),
+            position_m,
+            speed_m_s: moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max),
+            duration_s: data.takes.iter().map(|t| t.moments.last().map_or(0.0, |m| m.time_s)).collect(),
+            frames: data.takes.iter().map(|take| (take.frames, first(take.frames))).collect(),
+            frame_numbers: schemes.iter().sum(),
+            ln_amplitude: (
+                at_1m.0 - 2.0 * position_m.1.max(1e-3).ln(),
+                at_1m.1 - 2.0 * position_m.0.max(1e-3).ln(),
+            ),
+            full_scale_dn: pixels.full_scale_dn,
+        }
+    }
+}
+
+/// The target's way since the set's start, m.
+pub fn way_m(moment: &Moment) -> f64 {
+    moment.velocity_m_s * moment.in_set_s
+}

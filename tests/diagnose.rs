@@ -1,0 +1,238 @@
+//! `vuris diagnose`: recovery, silence, the unknown, refusals, and the practice campaigns where they are at hand.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use vuris::frames::RawSets;
+use vuris::recording::{Recording, write_recording};
+
+fn vuris(arguments: &[&str]) -> (bool, String) {
+    let output = Command::cargo_bin("vuris").unwrap().args(arguments).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    (output.status.success(), text.into_owned())
+}
+
+/// A small campaign with `effects`.
+fn campaign(folder: &Path, name: &str, effects: &[&str], seed: &str) -> PathBuf {
+    let out = folder.join(name);
+    let mut arguments = vec!["simulate", "--size", "10x8", "--seed", seed, "--out", out.to_str().unwrap()];
+    arguments.extend(["--recordings", "four-sweep,four-rail,four-motion,wdft-sweep,wdft-rail,wdft-motion"]);
+    effects.iter().for_each(|effect| arguments.extend(["--effect", effect]));
+    let (good, text) = vuris(&arguments);
+    assert!(good, "{text}");
+    out
+}
+
+fn verdict(campaign: &Path) -> Value {
+    let (good, text) = vuris(&["diagnose", campaign.to_str().unwrap(), "--json", "-"]);
+    assert!(good, "{text}");
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+fn names(verdict: &Value) -> Vec<String> {
+    let mut names: Vec<String> = verdict["effects"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|effect| effect["name"].as_str().unwrap().to_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+/// Value and standard deviation of a parameter.
+fn parameter(verdict: &Value, name: &str) -> (f64, f64) {
+    let effects = verdict["effects"].as_array().unwrap();
+    let mut rows = effects.iter().flat_map(|effect| effect["parameters"].as_array().unwrap());
+    let row = rows.find(|row| row["name"] == name).unwrap_or_else(|| panic!("no {name}: {verdict}"));
+    (row["value"].as_f64().unwrap(), row["sigma"].as_f64().unwrap())
+}
+
+#[test]
+fn clean_campaigns_are_clean_and_every_field_is_there() {
+    let folder = tempfile::tempdir().unwrap();
+    for seed in ["1", "2", "3"] {
+        let verdict = verdict(&campaign(folder.path(), seed, &[], seed));
+        assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
+        assert_eq!(verdict["format"], "vuris-verdict/1");
+        for empty in ["located", "effects"] {
+            assert_eq!(verdict[empty].as_array().unwrap().len(), 0, "{empty}");
+        }
+        for list in ["ruled_out", "next_recording", "invisible", "smallest_detectable"] {
+            assert!(verdict[list].is_array(), "{list}");
+        }
+        for number in [
+            "chi2_per_dof_before",
+            "chi2_per_dof_after",
+            "rms_dn_before",
+            "rms_dn_after",
+            "distance_rms_m_before",
+            "distance_rms_m_after",
+            "z",
+            "sets",
+        ] {
+            assert!(verdict["held_out"][number].is_number(), "{number}");
+        }
+        assert!(verdict["remainder"]["share"].is_number() && verdict["provenance"].is_object());
+        let chi2 = verdict["held_out"]["chi2_per_dof_before"].as_f64().unwrap();
+        assert!((chi2 - 1.0).abs() < 0.02, "{chi2}");
+    }
+}
+
+/// Effects with values, and the parameter that must come back.
+const SINGLE: [(&str, &str, &str, f64); 6] = [
+    ("image_lag", "image_lag:share=0.02", "share", 0.02),
+    ("electrical_crosstalk", "electrical_crosstalk:cosine_dn=1.5,sine_dn=-1", "sine_dn", -1.0),
+    ("phase_step_scale", "phase_step_scale:relative=0.004", "relative", 0.004),
+    (
+        "multipath_interference",
+        "multipath_interference:relative_amplitude=0.1,wall_distance_m=0.7",
+        "relative_amplitude",
+        0.1,
+    ),
+    (
+        "ambient_flicker",
+        "ambient_flicker:cosine=0.05,sine=0.02,frequency_hz=103.1",
+        "frequency_hz (four-rail)",
+        103.1,
+    ),
+    ("encoder_cyclic", "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.137", "period_m", 0.137),
+];
+
+#[test]
+fn single_effects_are_named_with_their_strength_and_held_out_sets_agree_better() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, effect, key, expected) in SINGLE {
+        let verdict = verdict(&campaign(folder.path(), name, &[effect], "5"));
+        assert_eq!(names(&verdict), [name], "{verdict:#}");
+        assert_eq!(verdict["verdict"], "explained", "{name}");
+        let (value, sigma) = parameter(&verdict, key);
+        assert!((value - expected).abs() < 4.0 * sigma, "{name}: {value} +- {sigma}, not {expected}");
+        let held = &verdict["held_out"];
+        assert!(held["z"].as_f64().unwrap() > 2.0, "{name}: {held}");
+        let [before, after] =
+            ["chi2_per_dof_before", "chi2_per_dof_after"].map(|key| held[key].as_f64().unwrap());
+        assert!(after < before && (after - 1.0).abs() < 0.03, "{name}: {before} {after}");
+    }
+}
+
+#[test]
+fn two_effects_are_found_together_and_a_report_shows_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let effects = ["phase_step_scale:relative=0.01", "electrical_crosstalk:cosine_dn=-1,sine_dn=2"];
+    let campaign = campaign(folder.path(), "pair", &effects, "9");
+    let (json, html) = (folder.path().join("verdict.json"), folder.path().join("report.html"));
+    let arguments = [
+        "diagnose",
+        campaign.to_str().unwrap(),
+        "--json",
+        json.to_str().unwrap(),
+        "--report",
+        html.to_str().unwrap(),
+    ];
+    let (good, text) = vuris(&arguments);
+    assert!(good && text.contains("phase_step_scale") && text.contains("chi squared a sample"), "{text}");
+    let verdict: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
+    assert_eq!(names(&verdict), ["electrical_crosstalk", "phase_step_scale"], "{verdict:#}");
+    let page = std::fs::read_to_string(&html).unwrap();
+    assert!(
+        page.contains("electrical_crosstalk") && page.contains("<svg") && page.contains("data:image/png")
+    );
+    // Nothing is fetched from elsewhere.
+    assert!(!page.contains("http://") && !page.contains("https://"), "the page needs nothing else");
+    // A second run writes over its own files.
+    assert!(vuris(&arguments).0);
+}
+
+/// Rewrites every frame of the campaign's recordings by `change` (set, frame, row, code).
+fn rewrite(campaign: &Path, change: impl Fn(usize, usize, usize, f64) -> f64) {
+    for entry in std::fs::read_dir(campaign).unwrap() {
+        let folder = entry.unwrap().path();
+        if !folder.join("recording.toml").exists() {
+            continue;
+        }
+        let mut recording = Recording::open(&folder).unwrap();
+        let geometry = recording.geometry();
+        let frames = recording.raw.frames_per_set();
+        let codes = recording.raw.codes().iter().enumerate().map(|(at, &code)| {
+            let (index, pixel) = (at / geometry.pixels(), at % geometry.pixels());
+            change(index / frames, index % frames, pixel / geometry.width, f64::from(code))
+                .round()
+                .clamp(0.0, 4095.0) as u32
+        });
+        recording.raw = RawSets::new(geometry, frames, codes.collect()).unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+        write_recording(&recording, &folder).unwrap();
+    }
+}
+
+#[test]
+fn what_no_effect_explains_is_unexplained_and_located() {
+    let folder = tempfile::tempdir().unwrap();
+    let banded = campaign(folder.path(), "banded", &[], "11");
+    // Rows that flicker from frame to frame, with a phase that never repeats.
+    rewrite(&banded, |set, frame, row, code| {
+        let phase = 7.7 * (set * 5 + frame) as f64 + ((set * 31 + frame * 17) as f64).powi(2) * 0.37;
+        code + 6.0 * (row as f64 * 1.9 + phase).sin()
+    });
+    let verdict = verdict(&banded);
+    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    assert_eq!(names(&verdict), Vec::<String>::new());
+    assert_eq!(verdict["located"][0]["coordinate"], "row");
+}
+
+#[test]
+fn codes_without_their_low_bits_are_the_cameras_own_arithmetic() {
+    let folder = tempfile::tempdir().unwrap();
+    let cut = campaign(folder.path(), "cut", &["fixed_point:bits_cut=2"], "13");
+    let verdict = verdict(&cut);
+    assert_eq!(names(&verdict), ["fixed_point"], "{verdict:#}");
+    assert_eq!(parameter(&verdict, "bits_cut").0, 2.0);
+}
+
+#[test]
+fn refusals_say_what_would_be_right() {
+    let folder = tempfile::tempdir().unwrap();
+    let (good, text) = vuris(&["diagnose", folder.path().to_str().unwrap()]);
+    assert!(!good && text.contains("recording"), "{text}");
+    let (good, text) = vuris(&["diagnose", "a", "b", "--json", "x"]);
+    assert!(!good && text.contains("one campaign"), "{text}");
+}
+
+/// The practice campaigns of the project's recordings, where they are at hand: `VURIS_PRACTICE`, or beside the repository.
+#[test]
+fn practice_campaigns_come_out_as_labelled() {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/recordings/practice");
+    let practice = std::env::var_os("VURIS_PRACTICE").map_or(beside, PathBuf::from);
+    let Ok(entries) = std::fs::read_dir(&practice) else {
+        eprintln!("skipped: {} is not there; VURIS_PRACTICE may name another folder", practice.display());
+        return;
+    };
+    let mut wrong = Vec::new();
+    for entry in entries {
+        let campaign = entry.unwrap().path();
+        let Ok(label) = std::fs::read_to_string(campaign.join("label.json")) else { continue };
+        let label: Value = serde_json::from_str(&label).unwrap();
+        let verdict = verdict(&campaign);
+        let listed = |value: &Value| {
+            let mut names: Vec<String> =
+                value.as_array().unwrap().iter().map(|name| name.as_str().unwrap().to_owned()).collect();
+            names.sort();
+            names
+        };
+        let found = names(&verdict);
+        let or = label["or"].as_array().cloned().unwrap_or_default();
+        let right = match (label["unknown"].as_bool(), found.is_empty()) {
+            (Some(true), true) => {
+                verdict["verdict"] == "unexplained" && verdict["located"][0]["coordinate"] == label["where"]
+            }
+            (Some(true), false) => false,
+            (_, true) => listed(&label["effects"]).is_empty() && verdict["verdict"] == "clean",
+            _ => found == listed(&label["effects"]) || or.iter().any(|or| found == listed(or)),
+        };
+        if !right {
+            wrong.push(format!("{}: {label} but {} {found:?}", campaign.display(), verdict["verdict"]));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
