@@ -47,7 +47,7 @@ impl Parameter {
     /// A shape that is one of `shapes`, the first of them as a rule.
     pub const fn choice(name: &'static str, unit: &'static str, shapes: &'static [f64]) -> Self {
         let (first, last) = (shapes[0], shapes[shapes.len() - 1]);
-        Self { is_choice: true, ..Self::shape(name, unit, first, (first, last), shapes) }
+        Self { is_choice: true, typical: last, ..Self::shape(name, unit, first, (first, last), shapes) }
     }
 
     /// How far from off it may be.
