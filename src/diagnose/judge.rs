@@ -35,6 +35,8 @@ pub struct Place {
     pub chi2: (f64, usize),
     /// The recording that shows it most.
     pub take: usize,
+    /// Whether samples share it at random.
+    pub is_random: bool,
 }
 
 /// The judgement.
@@ -103,30 +105,27 @@ pub fn judge(data: &Data, stated: Noise) -> Judgement {
     let explained: f64 = (found.baseline.chi2 - found.fit.chi2).max(0.0);
     let dropped = named.len() < found.named.len();
 
-    let rest: f64 = left.iter().map(|place| place.chi2.0 - place.chi2.1 as f64).fold(0.0, f64::max);
+    // A random effect takes with it what is left at random.
+    let random = random_effect(data, &end).or_else(|| {
+        let excess = excess.filter(|excess| excess.mode == 1)?;
+        Some(("excess_noise", excess))
+    });
+    let is_left = |place: &&Place| random.is_none() || !place.is_random;
+    let rest = |place: &Place| place.chi2.0 - place.chi2.1 as f64;
+    let rest: f64 = left.iter().filter(is_left).map(rest).fold(0.0, f64::max);
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
-    let random = left.first().filter(|_| named.is_empty()).and_then(|_| random_effect(data, &end));
     let mut strength = None;
-    let verdict = if let Some((name, cluster)) = random.filter(|_| excess.is_none()) {
+    if let Some((name, cluster)) = random {
         strength = Some((name, cluster.sigma));
-        named = vec![Named {
-            name,
-            ln_bayes: cluster.ln_bayes,
-            score: (2.0 * cluster.ln_bayes, 1),
-            rivals: Vec::new(),
-        }];
+        let score = (2.0 * cluster.ln_bayes, 1);
+        named.push(Named { name, ln_bayes: cluster.ln_bayes, score, rivals: Vec::new() });
+    }
+    let verdict = if rest == 0.0 || !named.is_empty() && remainder < believed {
+        if named.is_empty() { Verdict::Clean } else { Verdict::Explained }
+    } else if random.is_some() && found.named.is_empty() {
         Verdict::Explained
-    } else if named.is_empty() && excess.as_ref().is_some_and(|excess| excess.mode == 1) && left.is_empty() {
-        let ln_bayes = excess.map_or(0.0, |excess| excess.ln_bayes);
-        strength = excess.map(|excess| ("excess_noise", excess.sigma));
-        named.push(Named { name: "excess_noise", ln_bayes, score: (2.0 * ln_bayes, 1), rivals: Vec::new() });
-        Verdict::Explained
-    } else if named.is_empty() {
-        if left.is_empty() { Verdict::Clean } else { Verdict::Unexplained }
-    } else if left.is_empty() || remainder < believed {
-        Verdict::Explained
-    } else if remainder > 0.5 || named.len() == 1 && remainder > 0.1 || dropped {
+    } else if named.is_empty() || remainder > 0.5 || named.len() == 1 && remainder > 0.1 || dropped {
         named.clear();
         Verdict::Unexplained
     } else {
@@ -182,7 +181,6 @@ fn random_effect(data: &Data, location: &Location) -> Option<(&'static str, Clus
 
 /// Coordinates that stand out, most significant first.
 fn places(data: &Data, location: &Location) -> Vec<Place> {
-    let worst = |_: ()| 0;
     let columns = location.columns.iter().filter(|located| located.ln_bayes > LOCATED_NATS);
     let mut places: Vec<Place> = columns
         .map(|located| Place {
@@ -190,7 +188,8 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
             shape: located.shape.clone(),
             ln_bayes: located.ln_bayes,
             chi2: located.chi2,
-            take: worst(()),
+            take: 0,
+            is_random: false,
         })
         .collect();
     let clusters: Vec<&Cluster> = location.clusters.iter().filter(|cluster| is_real(data, cluster)).collect();
@@ -207,6 +206,7 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
             ln_bayes: cluster.ln_bayes,
             chi2: (2.0 * cluster.ln_bayes, 1),
             take: cluster.take,
+            is_random: true,
         };
         match ordered > ORDERED_SHARE * cluster.ln_bayes {
             true => places.push(place),

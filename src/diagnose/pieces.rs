@@ -37,9 +37,28 @@ pub struct Candidate {
     pub looked: f64,
 }
 
-/// Effects whose values belong to one recording each (their phase starts anew), or to the recordings of one scheme.
-const BY_TAKE: [&str; 1] = ["ambient_flicker"];
-const BY_SCHEME: [&str; 2] = ["phase_step_errors", "frame_gain"];
+/// Whose values are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Grouping {
+    /// Those of all recordings.
+    All,
+    /// Those of recordings with as many frames a set.
+    Scheme,
+    /// Each recording has its own.
+    Take,
+}
+
+/// Effects whose values need not be the same in all recordings: their parameters belong to frames of a set, their phase or their clock starts
+/// anew. Each is tried in all these ways.
+const GROUPINGS: [(&str, &[Grouping]); 7] = [
+    ("ambient_flicker", &[Grouping::All, Grouping::Take]),
+    ("phase_step_errors", &[Grouping::Scheme]),
+    ("frame_gain", &[Grouping::Scheme]),
+    ("illumination_droop", &[Grouping::All, Grouping::Scheme]),
+    ("illumination_drift", &[Grouping::All, Grouping::Take]),
+    ("ambient_drift", &[Grouping::All, Grouping::Take]),
+    ("phase_drift", &[Grouping::All, Grouping::Take]),
+];
 /// Effects that start with a corner, and the values at which they are tried.
 const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8])];
 
@@ -114,39 +133,36 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     }
     let shape = effect.parameters.iter().position(|parameter| parameter.is_shape());
     let shapes: &[f64] = shape.map_or(&[0.0], |shape| effect.parameters[shape].shapes);
-    found
-        .unwrap_or(shapes)
-        .iter()
-        .map(|&value| {
-            let mut values = effect.off();
-            if let Some(shape) = shape {
-                values[shape] = value;
-            }
-            Variant { pieces: pieces(effect, &values, data) }
-        })
-        .collect()
+    let groupings = GROUPINGS.iter().find(|(name, _)| *name == effect.name);
+    let groupings = groupings.map_or(&[Grouping::All][..], |(_, groupings)| groupings);
+    let mut variants = Vec::new();
+    for &value in found.unwrap_or(shapes) {
+        let mut values = effect.off();
+        if let Some(shape) = shape {
+            values[shape] = value;
+        }
+        // A phase shifter that has settings of its own has the same in all recordings.
+        let is_shared = shape.is_some_and(|shape| effect.parameters[shape].is_choice) && value > 0.0;
+        let groupings = if is_shared { &[Grouping::All][..] } else { groupings };
+        variants.extend(groupings.iter().map(|&by| Variant { pieces: pieces(effect, &values, by, data) }));
+    }
+    variants
 }
 
-fn pieces(effect: &'static Effect, values: &[f64], data: &Data) -> Vec<Piece> {
+fn pieces(effect: &'static Effect, values: &[f64], by: Grouping, data: &Data) -> Vec<Piece> {
     let all: Vec<usize> = (0..data.takes.len()).collect();
-    // A phase shifter that has settings of its own has the same in all recordings.
-    let by_frame = BY_SCHEME.contains(&effect.name)
-        && effect
-            .parameters
-            .iter()
-            .zip(values)
-            .all(|(parameter, &value)| !parameter.is_choice || value == 0.0);
-    let groups: Vec<Vec<usize>> = if BY_TAKE.contains(&effect.name) {
-        all.iter().map(|&take| vec![take]).collect()
-    } else if by_frame {
-        let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
-        schemes.sort_unstable();
-        schemes.dedup();
-        let of =
-            |frames: usize| all.iter().copied().filter(|&take| data.takes[take].frames == frames).collect();
-        schemes.into_iter().map(of).collect()
-    } else {
-        vec![all]
+    let groups: Vec<Vec<usize>> = match by {
+        Grouping::All => vec![all],
+        Grouping::Take => all.iter().map(|&take| vec![take]).collect(),
+        Grouping::Scheme => {
+            let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
+            schemes.sort_unstable();
+            schemes.dedup();
+            let of = |frames: usize| {
+                all.iter().copied().filter(|&take| data.takes[take].frames == frames).collect()
+            };
+            schemes.into_iter().map(of).collect()
+        }
     };
     let strengths = effect.parameters.iter().enumerate().filter(|(_, parameter)| !parameter.is_shape());
     let strengths: Vec<usize> = strengths.map(|(number, _)| number).collect();
@@ -155,7 +171,7 @@ fn pieces(effect: &'static Effect, values: &[f64], data: &Data) -> Vec<Piece> {
         .map(|takes| {
             let frames = takes.iter().map(|&take| data.takes[take].frames).max().unwrap_or(0);
             // A parameter of a frame that there is not.
-            let there = |&number: &usize| !by_frame || number < frames;
+            let there = |&number: &usize| by != Grouping::Scheme || number < frames;
             let free = strengths.iter().copied().filter(there).collect();
             Piece { effect, values: values.to_vec(), free, takes, finite: false }
         })
