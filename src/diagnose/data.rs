@@ -106,6 +106,21 @@ impl Data {
         self.target[pixel] || self.has_dark
     }
 
+    /// The same with these sets (numbers over all recordings) left out; nothing where there are none.
+    pub fn without(&self, sets: &[usize]) -> Option<Self> {
+        if sets.is_empty() {
+            return None;
+        }
+        let mut data = self.clone();
+        let places = self.sets();
+        for &(take, set) in sets.iter().filter_map(|&number| places.get(number)) {
+            let take = &mut data.takes[take];
+            let samples = take.frames * self.target.len();
+            take.signal_dn[set * samples..(set + 1) * samples].fill(f32::NAN);
+        }
+        Some(data)
+    }
+
     /// Number of pixels.
     pub fn pixels(&self) -> usize {
         self.geometry().pixels()

@@ -32,7 +32,7 @@ pub struct Fit {
 }
 
 /// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
-const BACKGROUND_M: f64 = 1.0;
+pub const BACKGROUND_M: f64 = 1.0;
 
 fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
     let geometry = data.geometry();
@@ -159,6 +159,11 @@ pub fn fit(
         jitter_m2: projected.jitter_m2,
         series,
     }
+}
+
+/// The fit without any effect.
+pub fn unfitted(data: &Data, noise: Noise) -> Fit {
+    fit(data, None, Vec::new(), noise, &|_| true)
 }
 
 /// One step of Gauss and Newton for the sets of which `counts` is true.

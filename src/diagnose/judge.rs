@@ -2,7 +2,7 @@
 
 use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
-use super::fit::Fit;
+use super::fit::{Fit, unfitted};
 use super::gram::Noise;
 use super::location::{Location, locate};
 use super::pieces::tolerance;
@@ -77,10 +77,10 @@ pub struct Judgement {
     pub noise: Noise,
 }
 
-/// Diagnoses `data`, whose noise is `stated`.
-pub fn judge(data: &Data, stated: Noise) -> Judgement {
+/// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
+pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut noise = stated;
-    let mut found = search(data, noise);
+    let mut found = search(data, baseline, noise);
     let mut end = locate(data, &found.fit, noise);
     let mut excess: Option<Cluster> = None;
     for _ in 0..NOISE_STEPS {
@@ -91,7 +91,7 @@ pub fn judge(data: &Data, stated: Noise) -> Judgement {
         }
         // The first says what it is; the others make it exact.
         excess = Some(excess.map_or(more, |first| Cluster { sigma: first.sigma.hypot(more.sigma), ..first }));
-        found = search(data, noise);
+        found = search(data, unfitted(data, noise), noise);
         end = locate(data, &found.fit, noise);
     }
     let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };

@@ -10,17 +10,34 @@ use std::f64::consts::TAU;
 pub const LINE_MODES: [&str; 3] = ["ambient light", "gain", "phase"];
 
 /// Score and information.
-type Sum = (f64, f64);
+pub type Sum = (f64, f64);
 
 /// What frames and sets say of errors that they share.
 #[derive(Debug, Clone, Default)]
 pub struct Series {
     /// Recording, start (s), and the sums of each mode.
     frames: Vec<(usize, f64, [Sum; LINE_MODES.len()])>,
-    /// The encoder's reading (m), and the target's position.
-    sets: Vec<(f64, Sum)>,
+    /// The sets, in the order in which they were seen.
+    pub sets: Vec<SetSeen>,
     /// From a frame to the next, s.
     frame_period_s: f64,
+}
+
+/// What a set says.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct SetSeen {
+    /// Its number, over all recordings.
+    pub number: usize,
+    /// Its recording.
+    pub take: usize,
+    /// The encoder's reading, m.
+    pub reading_m: f64,
+    /// The carriage's velocity, m/s.
+    pub velocity_m_s: f64,
+    /// Of an error of the target's position.
+    pub position: Sum,
+    /// Chi squared, and samples.
+    pub chi2: (f64, usize),
 }
 
 /// A line.
@@ -64,11 +81,19 @@ impl Series {
         self.frame_period_s = moment.frame_period_s;
         self.frames.push((whitened.take, moment.time_s, sums));
         if moment.frame == 0 {
-            self.sets.push((moment.position_m, (0.0, 0.0)));
+            self.sets.push(SetSeen {
+                number: whitened.set,
+                take: whitened.take,
+                reading_m: moment.position_m,
+                velocity_m_s: moment.velocity_m_s,
+                ..SetSeen::default()
+            });
         }
-        if let Some((_, sum)) = self.sets.last_mut() {
-            sum.0 += position.0;
-            sum.1 += position.1;
+        if let Some(seen) = self.sets.last_mut() {
+            seen.position.0 += position.0;
+            seen.position.1 += position.1;
+            seen.chi2.0 += whitened.residual.iter().map(|residual| residual * residual).sum::<f64>();
+            seen.chi2.1 += whitened.roots.iter().filter(|root| **root > 0.0).count();
         }
         self
     }
@@ -97,7 +122,8 @@ impl Series {
 
     /// The strongest line in the encoder's reading, cycles a metre.
     pub fn in_position(&self) -> Option<Line> {
-        strongest(std::slice::from_ref(&self.sets), CYCLES_M, 0.0)
+        let sets = self.sets.iter().map(|seen| (seen.reading_m, seen.position)).collect();
+        strongest(&[sets], CYCLES_M, 0.0)
     }
 }
 

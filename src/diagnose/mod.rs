@@ -15,16 +15,17 @@ mod pieces;
 mod profiles;
 mod ranges;
 mod search;
+mod settle;
 mod verdict;
 
 pub use data::{Data, Take};
 pub use fit::Fit;
 pub use gram::Noise;
 pub use held_out::{Agreement, HeldOut};
-pub use judge::{Judgement, Place, Verdict, judge};
-pub use location::{Located, Location, locate};
+pub use judge::{Judgement, Place, Verdict};
+pub use location::{Located, Location};
 pub use profiles::{Point, Profile};
-pub use search::{Found, Named, search};
+pub use search::{Found, Named};
 pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, diagnose, word};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise.

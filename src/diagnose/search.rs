@@ -123,9 +123,8 @@ fn tolerated(named: &[Named]) -> f64 {
     named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
 }
 
-/// Searches `data`.
-pub fn search(data: &Data, noise: Noise) -> Found {
-    let baseline = fit(data, None, Vec::new(), noise, &|_| true);
+/// Searches `data`, to which `baseline` was fitted without any effect.
+pub fn search(data: &Data, baseline: Fit, noise: Noise) -> Found {
     let mut alone = Vec::new();
     let mut current = baseline.clone();
     let mut named: Vec<Named> = Vec::new();

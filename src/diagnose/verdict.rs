@@ -1,10 +1,12 @@
 //! The answer as other programs read it: `vuris-verdict/1`.
 
 use super::data::Data;
+use super::fit::unfitted;
 use super::held_out::{HeldOut, held_out};
 use super::judge::{Judgement, Place, Verdict, judge};
 use super::pieces::Piece;
 use super::search::Named;
+use super::settle::{outlying, with_mask};
 use super::stated_noise;
 use crate::physics::effects;
 use serde::Serialize;
@@ -131,10 +133,28 @@ pub struct Smallest {
 }
 
 /// Diagnoses `data`.
+///
+/// What the recordings themselves say of mask and sets comes first: pixels that see something else than the mask has, and sets that
+/// are unlike their neighbours.
 pub fn diagnose(data: &Data) -> Diagnosis {
-    let judgement = judge(data, stated_noise(data));
+    let noise = stated_noise(data);
+    let (data, moved) = with_mask(data, noise);
+    let baseline = unfitted(&data, noise);
+    let outlying = outlying(&baseline.series);
+    let left_out = outlying.len();
+    let (data, baseline) = match data.without(&outlying) {
+        Some(data) => {
+            let baseline = unfitted(&data, noise);
+            (data, baseline)
+        }
+        None => (data, baseline),
+    };
+    let data = &data;
+    let judgement = judge(data, baseline, noise);
     let held_out = held_out(data, &judgement.found.baseline, &judgement.fit, judgement.noise);
-    let answer = answer(data, &judgement, &held_out);
+    let mut answer = answer(data, &judgement, &held_out);
+    answer.provenance["sets_left_out"] = json!(left_out);
+    answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     Diagnosis { judgement, held_out, answer }
 }
 

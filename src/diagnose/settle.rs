@@ -1,0 +1,137 @@
+//! What the recordings themselves say of the mask, and of sets that are unlike all others.
+
+use super::data::Data;
+use super::fit::BACKGROUND_M;
+use super::gram::Noise;
+use super::lines::{Series, SetSeen};
+use crate::units::phase_rad;
+use nalgebra::{DMatrix, DVector};
+
+/// A pixel sees what the mask does not say where chi squared is less than this share of the mask's.
+const MUCH_BETTER: f64 = 0.25;
+/// … and more than this a sample by the mask.
+const BAD_FIT: f64 = 2.0;
+
+/// `data` with the mask that its pixels show, and how many differ from the one that was recorded.
+///
+/// Each pixel is fitted once as if it saw the moving target, and once as if it saw a background that stands still.
+pub fn with_mask(data: &Data, noise: Noise) -> (Data, usize) {
+    let count = data.pixels();
+    let mut normal = vec![[Normal::new(), Normal::new()]; count];
+    let obliquity: Vec<f64> = (0..count)
+        .map(|pixel| data.geometry().row_column(pixel))
+        .map(|(row, column)| data.camera.obliquity(row, column))
+        .collect();
+    for take in &data.takes {
+        for (index, moment) in take.moments.iter().enumerate().filter(|(_, moment)| moment.lit) {
+            let position_m = moment.position_m + moment.velocity_m_s * moment.in_set_s;
+            let angle = moment.step_rad + moment.offset_rad;
+            let signals = &take.signal_dn[index * count..(index + 1) * count];
+            for (pixel, &signal) in signals.iter().enumerate().filter(|(_, signal)| signal.is_finite()) {
+                let signal = f64::from(signal);
+                let weight = noise.weight(signal);
+                for (sums, range_m) in
+                    normal[pixel].iter_mut().zip([position_m * obliquity[pixel], BACKGROUND_M])
+                {
+                    let light = (range_m * range_m).recip();
+                    let (sine, cosine) = (angle - phase_rad(range_m, moment.frequency_hz)).sin_cos();
+                    sums.add([light * cosine, light * sine, light, 1.0], signal, weight);
+                }
+            }
+        }
+    }
+    let mut settled = data.clone();
+    let mut moved = 0;
+    for (pixel, [target, background]) in normal.iter().enumerate() {
+        let (target, background) = (target.chi2(), background.chi2());
+        let (by_mask, other) = if data.target[pixel] { (target, background) } else { (background, target) };
+        if let (Some((by_mask, samples)), Some((other, _))) = (by_mask, other) {
+            if by_mask > BAD_FIT * samples && other < MUCH_BETTER * by_mask {
+                settled.target[pixel] = !data.target[pixel];
+                moved += 1;
+            }
+        }
+    }
+    (settled, moved)
+}
+
+/// Normal equations of four numbers.
+#[derive(Debug, Clone)]
+struct Normal {
+    matrix: DMatrix<f64>,
+    vector: DVector<f64>,
+    square: f64,
+    samples: f64,
+}
+
+impl Normal {
+    fn new() -> Self {
+        Self { matrix: DMatrix::zeros(4, 4), vector: DVector::zeros(4), square: 0.0, samples: 0.0 }
+    }
+
+    fn add(&mut self, own: [f64; 4], signal: f64, weight: f64) {
+        for (row, a) in own.iter().enumerate() {
+            for (column, b) in own.iter().enumerate() {
+                self.matrix[(row, column)] += weight * a * b;
+            }
+            self.vector[row] += weight * a * signal;
+        }
+        self.square += weight * signal * signal;
+        self.samples += 1.0;
+    }
+
+    /// What the best numbers leave, and of how many samples.
+    fn chi2(&self) -> Option<(f64, f64)> {
+        let scale = self.matrix.norm();
+        if scale <= 0.0 {
+            return None;
+        }
+        let solution = self.matrix.clone().svd(true, true).solve(&self.vector, 1e-9 * scale).ok()?;
+        Some((self.square - solution.dot(&self.vector), self.samples))
+    }
+}
+
+/// Sets on either side that a set is compared with.
+const NEIGHBOURS: usize = 4;
+/// So many times the usual scatter makes a set unlike its neighbours.
+const UNLIKE: f64 = 8.0;
+/// More than this share of all sets is no outlier, but something that must be found.
+const FEW: f64 = 0.04;
+/// A position error below this is the encoder's noise, m.
+const LEAST_JUMP_M: f64 = 1e-3;
+/// Chi squared a sample of an outlying set is above its neighbours' by at least so much.
+const LEAST_EXCESS: f64 = 0.3;
+
+/// The sets that differ from their neighbours in chi squared, or by a jump of the encoder; none where they are many.
+pub fn outlying(series: &Series) -> Vec<usize> {
+    let chi2 = |seen: &SetSeen| seen.chi2.0 / seen.chi2.1.max(1) as f64;
+    let jump = |seen: &SetSeen| if seen.position.1 > 0.0 { seen.position.0 / seen.position.1 } else { 0.0 };
+    let unlike = |value: &dyn Fn(&SetSeen) -> f64, least: f64| -> Vec<usize> {
+        let sets = &series.sets;
+        let difference = |at: usize| {
+            let near = at.saturating_sub(NEIGHBOURS)..(at + NEIGHBOURS + 1).min(sets.len());
+            let alike = |other: &usize| {
+                *other != at
+                    && sets[*other].take == sets[at].take
+                    && sets[*other].velocity_m_s == sets[at].velocity_m_s
+            };
+            let mut others: Vec<f64> = near.filter(alike).map(|other| value(&sets[other])).collect();
+            // Two neighbours may both be outliers.
+            if others.len() < 3 { 0.0 } else { value(&sets[at]) - median(&mut others) }
+        };
+        let differences: Vec<f64> = (0..sets.len()).map(difference).collect();
+        let usual = 1.4826 * median(&mut differences.iter().map(|d| d.abs()).collect::<Vec<_>>());
+        let is_unlike = |at: &usize| differences[*at].abs() > (UNLIKE * usual).max(least);
+        (0..sets.len()).filter(is_unlike).map(|at| sets[at].number).collect()
+    };
+    let mut found = unlike(&chi2, LEAST_EXCESS);
+    found.extend(unlike(&jump, LEAST_JUMP_M));
+    found.sort_unstable();
+    found.dedup();
+    if found.len() as f64 > FEW * series.sets.len() as f64 { Vec::new() } else { found }
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
