@@ -27,9 +27,9 @@ pub enum Level {
 pub const LEVELS: [Level; 6] =
     [Level::Set, Level::Frame, Level::Row, Level::Column, Level::Neighbours, Level::Pixel];
 
-/// In which way samples may be off together: by so much light (DN), in proportion to the signal, in phase (rad), as if the target moved
-/// at another time (s).
-pub const MODES: [&str; 4] = ["offset", "gain", "phase", "time"];
+/// In which way samples may be off together: by so much light (DN), in proportion to the signal, in phase (rad), as if the target
+/// were where it is at another time (s), or, of a set, at another place (m).
+pub const MODES: [&str; 4] = ["offset", "gain", "phase", "position"];
 
 const STEPS: usize = 14;
 /// Least and greatest standard deviation of each mode.
@@ -57,8 +57,8 @@ pub struct Cluster {
     pub take: usize,
 }
 
-/// Clusters and their information, of a level and mode.
-type Informed = [[(f64, f64); MODES.len()]; LEVELS.len()];
+/// Of a level and mode: clusters, their information, its square, and the scores' squares beyond what noise makes.
+type Informed = [[[f64; 4]; MODES.len()]; LEVELS.len()];
 type Curves = [[[f64; STEPS]; MODES.len()]; LEVELS.len()];
 
 /// Evidence of all levels and modes, recording by recording.
@@ -80,8 +80,16 @@ impl Clusters {
         let velocity_m_s = take.moments[whitened.index].velocity_m_s;
         let sizes = [1, geometry.height, width, blocks * geometry.height.div_ceil(2), geometry.pixels()];
         for mode in 0..MODES.len() {
-            if mode == 3 && velocity_m_s == 0.0 {
-                continue;
+            // A set is at another place as a whole; a frame is only if it is taken at another time of a movement.
+            if mode == 3 {
+                for pixel in 0..whitened.roots.len() {
+                    let value = whitened.roots[pixel] * frame.position[pixel];
+                    self.set[mode].0 += value * whitened.residual[pixel];
+                    self.set[mode].1 += value * value;
+                }
+                if velocity_m_s == 0.0 {
+                    continue;
+                }
             }
             let mut sums = sizes.map(|size| vec![(0.0, 0.0); size]);
             for pixel in 0..whitened.roots.len() {
@@ -100,19 +108,21 @@ impl Clusters {
                     sums[place].1 += value * value;
                 }
             }
-            self.set[mode].0 += sums[0][0].0;
-            self.set[mode].1 += sums[0][0].1;
+            if mode != 3 {
+                self.set[mode].0 += sums[0][0].0;
+                self.set[mode].1 += sums[0][0].1;
+            }
             // A pixel alone has noise, whatever it is proportional to.
             let levels = if mode < 2 { 5 } else { 1 };
             for (level, sums) in sums.iter().enumerate().take(levels) {
                 let informed = &mut self.information[level + 1][mode];
-                add(&mut self.evidence[whitened.take][level + 1][mode], informed, mode, sums);
+                add(&mut self.evidence[whitened.take][level + 1][mode], informed, mode, sums, level == 0);
             }
         }
         if (whitened.index + 1).is_multiple_of(take.frames) {
             for (mode, sum) in std::mem::take(&mut self.set).into_iter().enumerate() {
                 let informed = &mut self.information[0][mode];
-                add(&mut self.evidence[whitened.take][0][mode], informed, mode, &[sum]);
+                add(&mut self.evidence[whitened.take][0][mode], informed, mode, &[sum], true);
             }
         }
         self
@@ -132,10 +142,15 @@ impl Clusters {
         }
         for (sum, other) in self.information.iter_mut().flatten().zip(other.information.into_iter().flatten())
         {
-            sum.0 += other.0;
-            sum.1 += other.1;
+            sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += other);
         }
         self
+    }
+
+    /// Standard deviation by the scores' variance.
+    fn moment(&self, level: usize, mode: usize) -> f64 {
+        let [_, _, squares, beyond] = self.information[level][mode];
+        if squares > 0.0 { (beyond / squares).max(0.0).sqrt() } else { 0.0 }
     }
 
     /// The best of every level and mode that has any evidence, best first.
@@ -151,9 +166,13 @@ impl Clusters {
                 found.push(Cluster {
                     level,
                     mode,
-                    sigma: variance(mode, spread).sqrt(),
+                    // What is tamed must not say how strong it is.
+                    sigma: match level {
+                        Level::Set | Level::Frame => self.moment(number, mode),
+                        _ => variance(mode, spread).sqrt(),
+                    },
                     inflation: {
-                        let (count, information) = self.information[number][mode];
+                        let [count, information, ..] = self.information[number][mode];
                         1.0 + variance(mode, spread) * information / count.max(1.0)
                     },
                     ln_bayes: at(best),
@@ -167,6 +186,12 @@ impl Clusters {
     }
 }
 
+/// A set or frame that is off by more than four standard deviations counts as four: a few outliers are no effect.
+fn tame((score, information): (f64, f64)) -> (f64, f64) {
+    let most = 4.0 * information.sqrt();
+    (score.clamp(-most, most), information)
+}
+
 /// Where the evidence is greatest, between the steps: by the parabola through the best one and its neighbours.
 fn peak(best: usize, at: &dyn Fn(usize) -> f64) -> f64 {
     if best == 0 || best + 1 == STEPS {
@@ -177,14 +202,17 @@ fn peak(best: usize, at: &dyn Fn(usize) -> f64) -> f64 {
     best as f64 + if bend < 0.0 { 0.5 * (left - right) / bend } else { 0.0 }
 }
 
-fn add(curve: &mut [f64; STEPS], informed: &mut (f64, f64), mode: usize, sums: &[(f64, f64)]) {
-    for sum in sums.iter().filter(|sum| sum.1 > 0.0) {
-        informed.0 += 1.0;
-        informed.1 += sum.1;
+fn add(curve: &mut [f64; STEPS], informed: &mut [f64; 4], mode: usize, sums: &[(f64, f64)], is_tame: bool) {
+    for &(score, information) in sums.iter().filter(|sum| sum.1 > 0.0) {
+        informed[0] += 1.0;
+        informed[1] += information;
+        informed[2] += information * information;
+        informed[3] += score * score - information;
     }
     for (step, evidence) in curve.iter_mut().enumerate() {
         let variance = variance(mode, step as f64);
-        for &(score, information) in sums.iter().filter(|sum| sum.1 > 0.0) {
+        for &sum in sums.iter().filter(|sum| sum.1 > 0.0) {
+            let (score, information) = if is_tame { tame(sum) } else { sum };
             let share = variance * information;
             *evidence += 0.5 * variance * score * score / (1.0 + share) - 0.5 * share.ln_1p();
         }

@@ -99,7 +99,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let left = self::places(data, &end);
 
     // What random errors let appear among the columns is not asserted.
-    let inflation = end.clusters.iter().filter(|c| is_real(data, c)).map(|c| c.inflation).fold(1.0, f64::max);
+    let inflation = real(data, &end).iter().map(|c| c.inflation).fold(1.0, f64::max);
     let stands = |named: &Named| named.ln_bayes - 0.5 * named.score.0 * (1.0 - 1.0 / inflation) > 1.0;
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
     let explained: f64 = (found.baseline.chi2 - found.fit.chi2).max(0.0);
@@ -151,29 +151,38 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
 
 /// Noise that pixels do not share, beyond what was stated.
 fn noise_excess(data: &Data, location: &Location) -> Option<Cluster> {
-    let real = location.clusters.iter().find(|cluster| is_real(data, cluster))?;
+    let real = *real(data, location).first()?;
     let ordered = location.columns.first().map_or(0.0, |columns| columns.ln_bayes);
     (real.level == Level::Pixel && ordered < ORDERED_SHARE * real.ln_bayes).then_some(*real)
 }
 
-fn is_real(data: &Data, cluster: &Cluster) -> bool {
+/// Random errors that are none of the encoder's usual noise, nor what that shows as elsewhere; best first.
+fn real<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
     let metre_rad = data.takes.first().and_then(|take| take.moments.first());
     let metre_rad = metre_rad.map_or(1.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
-    let usual =
-        cluster.level == Level::Set && cluster.mode == 2 && cluster.sigma < USUAL_JITTER_M * metre_rad;
-    cluster.ln_bayes > CLUSTER_NATS && !usual
+    let is_usual = |cluster: &&Cluster| {
+        let usual_sigma = match MODES[cluster.mode] {
+            "phase" => USUAL_JITTER_M * metre_rad,
+            "position" => USUAL_JITTER_M,
+            _ => 0.0,
+        };
+        cluster.level == Level::Set && cluster.sigma < usual_sigma
+    };
+    let usual = location.clusters.iter().filter(is_usual).map(|cluster| cluster.ln_bayes);
+    let least = usual.fold(CLUSTER_NATS, f64::max);
+    location.clusters.iter().filter(|cluster| cluster.ln_bayes > least && !is_usual(cluster)).collect()
 }
 
 /// A random effect of the registry, if the strongest cluster is what it makes, and nothing orders it.
 fn random_effect(data: &Data, location: &Location) -> Option<(&'static str, Cluster)> {
-    let cluster = location.clusters.iter().find(|cluster| is_real(data, cluster))?;
+    let cluster = *real(data, location).first()?;
     let ordered = location.columns.first().map_or(0.0, |columns| columns.ln_bayes);
     if ordered > 0.02 * cluster.ln_bayes + LOCATED_NATS {
         return None;
     }
     let name = match (cluster.level, MODES[cluster.mode]) {
         (Level::Frame, "phase") => "clock_jitter",
-        (Level::Frame, "time") => "timing_jitter_of_frames",
+        (Level::Frame, "position") => "timing_jitter_of_frames",
         _ => return None,
     };
     Some((name, *cluster))
@@ -192,7 +201,7 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
             is_random: false,
         })
         .collect();
-    let clusters: Vec<&Cluster> = location.clusters.iter().filter(|cluster| is_real(data, cluster)).collect();
+    let clusters = real(data, location);
     let ordered = places.first().map_or(0.0, |place| place.ln_bayes);
     if let Some(cluster) = clusters.first() {
         let place = Place {

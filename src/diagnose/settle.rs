@@ -7,10 +7,8 @@ use super::lines::{Series, SetSeen};
 use crate::units::phase_rad;
 use nalgebra::{DMatrix, DVector};
 
-/// A pixel sees what the mask does not say where chi squared is less than this share of the mask's.
-const MUCH_BETTER: f64 = 0.25;
-/// … and more than this a sample by the mask.
-const BAD_FIT: f64 = 2.0;
+/// A pixel sees what the mask does not say where chi squared is less by so much, and by this share.
+const MUCH_BETTER: (f64, f64) = (100.0, 0.02);
 
 /// `data` with the mask that its pixels show, and how many differ from the one that was recorded.
 ///
@@ -45,11 +43,10 @@ pub fn with_mask(data: &Data, noise: Noise) -> (Data, usize) {
     for (pixel, [target, background]) in normal.iter().enumerate() {
         let (target, background) = (target.chi2(), background.chi2());
         let (by_mask, other) = if data.target[pixel] { (target, background) } else { (background, target) };
-        if let (Some((by_mask, samples)), Some((other, _))) = (by_mask, other) {
-            if by_mask > BAD_FIT * samples && other < MUCH_BETTER * by_mask {
-                settled.target[pixel] = !data.target[pixel];
-                moved += 1;
-            }
+        let better = by_mask.zip(other).map_or(0.0, |(by_mask, other)| by_mask - other);
+        if better > MUCH_BETTER.0 + MUCH_BETTER.1 * by_mask.unwrap_or(0.0) {
+            settled.target[pixel] = !data.target[pixel];
+            moved += 1;
         }
     }
     (settled, moved)
@@ -61,12 +58,11 @@ struct Normal {
     matrix: DMatrix<f64>,
     vector: DVector<f64>,
     square: f64,
-    samples: f64,
 }
 
 impl Normal {
     fn new() -> Self {
-        Self { matrix: DMatrix::zeros(4, 4), vector: DVector::zeros(4), square: 0.0, samples: 0.0 }
+        Self { matrix: DMatrix::zeros(4, 4), vector: DVector::zeros(4), square: 0.0 }
     }
 
     fn add(&mut self, own: [f64; 4], signal: f64, weight: f64) {
@@ -77,24 +73,27 @@ impl Normal {
             self.vector[row] += weight * a * signal;
         }
         self.square += weight * signal * signal;
-        self.samples += 1.0;
     }
 
-    /// What the best numbers leave, and of how many samples.
-    fn chi2(&self) -> Option<(f64, f64)> {
+    /// What the best numbers leave.
+    fn chi2(&self) -> Option<f64> {
         let scale = self.matrix.norm();
         if scale <= 0.0 {
             return None;
         }
         let solution = self.matrix.clone().svd(true, true).solve(&self.vector, 1e-9 * scale).ok()?;
-        Some((self.square - solution.dot(&self.vector), self.samples))
+        Some(self.square - solution.dot(&self.vector))
     }
 }
 
 /// Sets on either side that a set is compared with.
 const NEIGHBOURS: usize = 4;
 /// So many times the usual scatter makes a set unlike its neighbours.
-const UNLIKE: f64 = 8.0;
+const UNLIKE: f64 = 5.0;
+/// The usual scatter is never taken for less than this, of what noise makes of a position, or of chi squared a sample.
+const LEAST_SCATTER: f64 = 0.01;
+/// The encoder's usual noise, m.
+const USUAL_JITTER_M: f64 = 0.2e-3;
 /// More than this share of all sets is no outlier, but something that must be found.
 const FEW: f64 = 0.04;
 /// A position error below this is the encoder's noise, m.
@@ -106,7 +105,12 @@ const LEAST_EXCESS: f64 = 0.3;
 pub fn outlying(series: &Series) -> Vec<usize> {
     let chi2 = |seen: &SetSeen| seen.chi2.0 / seen.chi2.1.max(1) as f64;
     let jump = |seen: &SetSeen| if seen.position.1 > 0.0 { seen.position.0 / seen.position.1 } else { 0.0 };
-    let unlike = |value: &dyn Fn(&SetSeen) -> f64, least: f64| -> Vec<usize> {
+    // Noise of a position, that of the encoder among it.
+    let blur = |seen: &SetSeen| (seen.position.1.max(1e-12).recip() + USUAL_JITTER_M.powi(2)).sqrt();
+    let unlike = |value: &dyn Fn(&SetSeen) -> f64,
+                  scatter: &dyn Fn(&SetSeen) -> f64,
+                  least: f64|
+     -> Vec<usize> {
         let sets = &series.sets;
         let difference = |at: usize| {
             let near = at.saturating_sub(NEIGHBOURS)..(at + NEIGHBOURS + 1).min(sets.len());
@@ -120,12 +124,15 @@ pub fn outlying(series: &Series) -> Vec<usize> {
             if others.len() < 3 { 0.0 } else { value(&sets[at]) - median(&mut others) }
         };
         let differences: Vec<f64> = (0..sets.len()).map(difference).collect();
-        let usual = 1.4826 * median(&mut differences.iter().map(|d| d.abs()).collect::<Vec<_>>());
-        let is_unlike = |at: &usize| differences[*at].abs() > (UNLIKE * usual).max(least);
+        let mut sizes: Vec<f64> =
+            differences.iter().zip(sets).map(|(difference, seen)| difference.abs() / scatter(seen)).collect();
+        let usual = (1.4826 * median(&mut sizes)).max(LEAST_SCATTER);
+        let is_unlike =
+            |at: &usize| differences[*at].abs() > (UNLIKE * usual * scatter(&sets[*at])).max(least);
         (0..sets.len()).filter(is_unlike).map(|at| sets[at].number).collect()
     };
-    let mut found = unlike(&chi2, LEAST_EXCESS);
-    found.extend(unlike(&jump, LEAST_JUMP_M));
+    let mut found = unlike(&chi2, &|_| 1.0, LEAST_EXCESS);
+    found.extend(unlike(&jump, &blur, LEAST_JUMP_M));
     found.sort_unstable();
     found.dedup();
     if found.len() as f64 > FEW * series.sets.len() as f64 { Vec::new() } else { found }
