@@ -144,6 +144,57 @@ fn two_effects_are_found_together_and_a_report_shows_them() {
     assert!(vuris(&arguments).0);
 }
 
+#[test]
+fn a_camera_that_knows_what_was_found_leaves_nothing_to_find() {
+    let folder = tempfile::tempdir().unwrap();
+    let effects = ["image_lag:share=0.02", "encoder_scale:relative=0.004"];
+    let campaign = campaign(folder.path(), "known", &effects, "15");
+    let camera = campaign.join("camera.toml");
+    let (good, text) =
+        vuris(&["diagnose", campaign.to_str().unwrap(), "--write-camera", camera.to_str().unwrap()]);
+    assert!(good, "{text}");
+    let written = std::fs::read_to_string(&camera).unwrap();
+    assert!(written.contains("image_lag:share=0.0"), "{written}");
+    let verdict = verdict(&campaign);
+    assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
+    // The next simulation has it, too.
+    let next = folder.path().join("next");
+    let (good, text) = vuris(&[
+        "simulate",
+        "--camera",
+        camera.to_str().unwrap(),
+        "--out",
+        next.to_str().unwrap(),
+        "--recordings",
+        "four-rail,wdft-motion",
+    ]);
+    assert!(good, "{text}");
+    assert_eq!(self::verdict(&next)["verdict"], "clean");
+}
+
+#[test]
+fn bad_masks_dead_pixels_and_odd_sets_raise_no_alarm() {
+    let folder = tempfile::tempdir().unwrap();
+    let odd = campaign(folder.path(), "odd", &[], "17");
+    rewrite(&odd, |set, _, _, code| if set % 60 == 30 { code + 150.0 } else { code });
+    let found = verdict(&odd);
+    assert_eq!(found["verdict"], "clean", "{found:#}");
+    assert!(found["provenance"]["sets_left_out"].as_u64().unwrap() > 5);
+    // A row that is dead: no light, no noise.
+    let dead = campaign(folder.path(), "dead", &[], "19");
+    rewrite(&dead, |_, _, row, code| if row == 3 { 64.0 } else { code });
+    assert_eq!(verdict(&dead)["verdict"], "clean");
+    for entry in std::fs::read_dir(&dead).unwrap() {
+        let mask = entry.unwrap().path().join("mask.npy");
+        if mask.exists() {
+            std::fs::remove_file(mask).unwrap();
+        }
+    }
+    let unmasked = verdict(&dead);
+    assert_eq!(unmasked["verdict"], "clean", "{unmasked:#}");
+    assert!(unmasked["provenance"]["pixels_unlike_the_mask"].as_u64().unwrap() > 3);
+}
+
 /// Rewrites every frame of the campaign's recordings by `change` (set, frame, row, code).
 fn rewrite(campaign: &Path, change: impl Fn(usize, usize, usize, f64) -> f64) {
     for entry in std::fs::read_dir(campaign).unwrap() {

@@ -28,6 +28,7 @@ pub fn practice_camera(geometry: Geometry) -> Camera {
         correlation_amplitude: vec![1.0, 0.0, 0.024_129, 0.0, 0.003_372, 0.0, 0.000_892],
         correlation_phase_rad: vec![0.0, 0.0, -0.2421, 0.0, -0.4719, 0.0, -0.69],
         included_physics: vec![AXIAL_MOTION.to_owned(), INVERSE_SQUARE_FALLOFF.to_owned()],
+        effects: Vec::new(),
     }
 }
 

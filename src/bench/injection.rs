@@ -50,6 +50,25 @@ fn within(effect: &Effect, parameter: &Parameter, text: &str) -> Result<f64> {
     })
 }
 
+/// The effects that `camera` includes with values, those that act in `recording`.
+///
+/// # Errors
+/// An effect that is not known, or a value that it cannot have.
+pub fn camera_effects(camera: &Camera, recording: &str) -> Result<Vec<Active>> {
+    let mut effects = Vec::new();
+    for text in &camera.effects {
+        let (effect, recordings) = text.split_once('@').unwrap_or((text, ""));
+        let active = injection(effect).map_err(|problem| {
+            Problem::at("camera.toml: physics.effects", problem.found())
+                .expected("effects as `vuris simulate --effect` takes them")
+        })?;
+        if recordings.is_empty() || recordings.split(',').any(|known| known == recording) {
+            effects.push(active);
+        }
+    }
+    Ok(effects)
+}
+
 /// `camera` without what `effects` bring: an effect that the camera's simulation includes could not be found in its recordings.
 #[must_use]
 pub fn included_without(mut camera: Camera, effects: &[Active]) -> Camera {

@@ -15,6 +15,6 @@ mod simulation;
 pub use atlas::{Atlas, Line, Residuals, phasors};
 pub use camera::{FREQUENCY_HZ, chain, practice_camera, sensor};
 pub use course::{Course, moments};
-pub use injection::{included_without, injection};
+pub use injection::{camera_effects, included_without, injection};
 pub use plan::Plan;
 pub use simulation::{Simulation, simulate};

@@ -4,7 +4,7 @@ use super::campaign::recordings_in;
 use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
-use crate::diagnose::{Data, Diagnosis, diagnose};
+use crate::diagnose::{Data, Diagnosis, camera_with, diagnose};
 use crate::problem::{Problem, Result};
 use crate::recording::Recording;
 use crate::report::{diagnosis_page, diagnosis_text};
@@ -24,14 +24,22 @@ pub(super) struct Diagnose {
     /// Write a page with maps, curves and the evidence
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
+    /// Write the camera's description with the effects that were found
+    #[arg(long, value_name = "camera.toml")]
+    write_camera: Option<PathBuf>,
 }
 
 impl Diagnose {
     pub(super) fn run(self) -> Result<ExitCode> {
-        if self.campaigns.len() > 1 && (self.json.is_some() || self.report.is_some()) {
-            return Err(Problem::at("--json and --report", counted(self.campaigns.len(), "campaign"))
-                .expected("one campaign for one file")
-                .remedy("diagnose them one by one"));
+        if self.campaigns.len() > 1
+            && [&self.json, &self.report, &self.write_camera].iter().any(|file| file.is_some())
+        {
+            return Err(Problem::at(
+                "--json, --report, --write-camera",
+                counted(self.campaigns.len(), "campaign"),
+            )
+            .expected("one campaign for one file")
+            .remedy("diagnose them one by one"));
         }
         for campaign in &self.campaigns {
             let data = read(campaign)?;
@@ -39,6 +47,9 @@ impl Diagnose {
             let diagnosis: Diagnosis = progress::during(what, || diagnose(&data));
             let text = serde_json::to_string_pretty(&diagnosis.answer)
                 .map_err(|error| Problem::at("the verdict", error))?;
+            if let Some(file) = &self.write_camera {
+                write_file(file, &camera_with(&data, &diagnosis.judgement).to_toml())?;
+            }
             if let Some(file) = &self.report {
                 write_file(file, &diagnosis_page(campaign, &diagnosis, data.geometry())?)?;
             }

@@ -3,8 +3,8 @@
 use super::print::{counted, say};
 use super::progress;
 use crate::bench::{
-    Course, FREQUENCY_HZ, Plan, Simulation, chain, included_without, injection, practice_camera, sensor,
-    simulate,
+    Course, FREQUENCY_HZ, Plan, Simulation, camera_effects, chain, included_without, injection,
+    practice_camera, sensor, simulate,
 };
 use crate::frames::Geometry;
 use crate::physics::{Active, Chain, Correlation, EFFECTS, Pulse, Sensor, Stage};
@@ -109,18 +109,20 @@ impl Simulate {
             return Err(Problem::in_file(&present, "is there already").expected("a new campaign"));
         }
         let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
-        let chain = chain(&camera, pixels, effects);
+        let chains: Vec<Chain> = names
+            .iter()
+            .map(|name| {
+                let mut all = camera_effects(&camera, name)?;
+                all.extend(effects.iter().cloned());
+                Ok(chain(&camera, Arc::clone(&pixels), all))
+            })
+            .collect::<Result<_>>()?;
         write_camera(&camera, out)?;
-        for (name, course) in names.iter().zip(&courses) {
+        for ((name, course), chain) in names.iter().zip(&courses).zip(&chains) {
             // The same recording has the same noise, whichever others are taken.
             let number = Plan::names().iter().position(|known| known == name).unwrap_or(0) as u32;
-            let simulation = Simulation {
-                chain: &chain,
-                sensor: &sensor,
-                noise: true,
-                seed: self.seed,
-                recording: number,
-            };
+            let simulation =
+                Simulation { chain, sensor: &sensor, noise: true, seed: self.seed, recording: number };
             let raw = progress::counted("sets", |tell| {
                 let done = AtomicUsize::new(0);
                 simulate(&simulation, course, &|| {

@@ -90,7 +90,10 @@ impl<'a> Tangents<'a> {
         }
         let chains = (0..data.takes.len()).map(|take| {
             let effects = active(fitted, take);
-            let with = |pixels: Arc<Pixels>, effects: Vec<Active>| chain(&data.camera, pixels, effects);
+            let with = |pixels: Arc<Pixels>, mut effects: Vec<Active>| {
+                effects.extend(data.takes[take].included.iter().cloned());
+                chain(&data.camera, pixels, effects)
+            };
             let own = [0, 1, 2, 3].map(|number| {
                 let (changed, step) = own_pixels(pixels, number);
                 (with(Arc::new(changed), effects.clone()), step)

@@ -1,8 +1,8 @@
 //! A campaign as the fit sees it: frames above the pedestal, which samples count, and what the encoder said of each.
 
-use crate::bench::Course;
+use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
-use crate::physics::Moment;
+use crate::physics::{Active, Moment};
 use crate::problem::{Problem, Result};
 use crate::recording::{Camera, Recording};
 
@@ -15,6 +15,8 @@ pub struct Take {
     pub moments: Vec<Moment>,
     /// Frames a set.
     pub frames: usize,
+    /// Effects that the camera's simulation includes, with values.
+    pub included: Vec<Active>,
     /// Signals above the pedestal, DN, `[frame, pixel]`; NaN where a sample does not count.
     pub signal_dn: Vec<f32>,
 }
@@ -72,6 +74,7 @@ impl Data {
                 name: recording.name.clone(),
                 moments: course.moments(),
                 frames: course.frames(),
+                included: camera_effects(&camera, &recording.name)?,
                 signal_dn: recording.raw.codes().iter().map(signal).collect(),
             });
         }

@@ -80,8 +80,7 @@ pub struct Judgement {
 /// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut noise = stated;
-    let mut found = search(data, baseline, noise);
-    let mut end = locate(data, &found.fit, noise);
+    let (mut found, mut end) = searched(data, baseline, noise);
     let mut excess: Option<Cluster> = None;
     for _ in 0..NOISE_STEPS {
         let Some(more) = noise_excess(data, &end) else { break };
@@ -91,8 +90,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         }
         // The first says what it is; the others make it exact.
         excess = Some(excess.map_or(more, |first| Cluster { sigma: first.sigma.hypot(more.sigma), ..first }));
-        found = search(data, unfitted(data, noise), noise);
-        end = locate(data, &found.fit, noise);
+        (found, end) = searched(data, unfitted(data, noise), noise);
     }
     let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };
     let mut places = places(data, &baseline);
@@ -147,6 +145,18 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let fit = if named.is_empty() { found.baseline.clone() } else { found.fit.clone() };
     let locations = [baseline, end];
     Judgement { verdict, places, left, named, remainder, locations, random: strength, found, fit, noise }
+}
+
+/// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not.
+fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, Location) {
+    let found = search(data, baseline.clone(), noise, true);
+    let end = locate(data, &found.fit, noise);
+    if !found.trusts_forms() || places(data, &end).is_empty() {
+        return (found, end);
+    }
+    let found = search(data, baseline, noise, false);
+    let end = locate(data, &found.fit, noise);
+    (found, end)
 }
 
 /// Noise that pixels do not share, beyond what was stated.

@@ -1,5 +1,6 @@
 //! Diagnosis: where recordings and simulation disagree, and which physics was left out.
 
+mod camera;
 mod clusters;
 mod columns;
 mod coordinates;
@@ -18,6 +19,7 @@ mod search;
 mod settle;
 mod verdict;
 
+pub use camera::camera_with;
 pub use data::{Data, Take};
 pub use fit::Fit;
 pub use gram::Noise;

@@ -11,6 +11,10 @@ use super::pieces::{Candidate, Piece, candidates, tolerance};
 pub const THRESHOLD: f64 = 1.0;
 /// A rival within so many nats is possible too.
 const RIVAL_NATS: f64 = 3.0;
+/// Evidence (nats) that names an effect which explains less than the forms of others may leave.
+const CLEAR_NATS: f64 = 8.0;
+/// It explains at least this share of that.
+const TRUSTED_SHARE: f64 = 0.03;
 const MOST_EFFECTS: usize = 4;
 /// Beyond so much evidence (nats) the tangents at the baseline need not hold at the fit.
 const STRONG_NATS: f64 = 30.0;
@@ -118,13 +122,23 @@ fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter:
     Pass { models: evidence.models(), scores, invisible, detectable, singles, blocks }
 }
 
+impl Found {
+    /// Whether an effect is named that explains less than the forms of those before it may leave.
+    pub fn trusts_forms(&self) -> bool {
+        let is_small = |(number, named): (usize, &Named)| named.score.0 < tolerated(&self.named[..number]);
+        self.named.iter().enumerate().any(is_small)
+    }
+}
+
 /// What stands of the named effects' evidence may come from their own form: this much of what they explain is theirs.
 fn tolerated(named: &[Named]) -> f64 {
     named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
 }
 
 /// Searches `data`, to which `baseline` was fitted without any effect.
-pub fn search(data: &Data, baseline: Fit, noise: Noise) -> Found {
+///
+/// With `trust` in the forms of effects, one that explains less than the others' forms may leave is named nevertheless, on clear evidence.
+pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
     let mut alone = Vec::new();
     let mut current = baseline.clone();
     let mut named: Vec<Named> = Vec::new();
@@ -132,7 +146,7 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise) -> Found {
     loop {
         let candidates = candidates(data, &current.series);
         let pass = pass(data, &current, &candidates, noise, None);
-        let next = pass.next(&named);
+        let next = pass.next(&named, trust);
         first.get_or_insert_with(|| {
             alone = pass.alone(&candidates);
             pass.clone()
@@ -161,12 +175,14 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise) -> Found {
 
 impl Pass {
     /// The model to be fitted next, beside those that are named; and, where that is only a part of the best one, the whole.
-    fn next(&self, named: &[Named]) -> Option<(Model, Model)> {
+    fn next(&self, named: &[Named], trust: bool) -> Option<(Model, Model)> {
         let explained =
             |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
         let enough = |model: &&Model| {
-            model.ln_bayes > THRESHOLD
-                && model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max) > tolerated(named)
+            let most = model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max);
+            let tolerated = tolerated(named);
+            let trusted = trust && model.ln_bayes > CLEAR_NATS && most > TRUSTED_SHARE * tolerated;
+            model.ln_bayes > THRESHOLD && (most > tolerated || trusted)
         };
         let best = self.models.iter().find(enough)?;
         // The simplest of the models within the evidence.

@@ -31,6 +31,8 @@ pub struct Camera {
     pub correlation_phase_rad: Vec<f64>,
     /// Effects that the simulation includes beside the above.
     pub included_physics: Vec<String>,
+    /// Effects with values that it includes, as `name:parameter=value,…`, with `@recording,…` where they act in some recordings only.
+    pub effects: Vec<String>,
 }
 
 impl Camera {
@@ -70,6 +72,10 @@ impl Camera {
             // What is not in the file is not in the simulation: a correlation without harmonics.
             None => (vec![1.0], vec![0.0]),
         };
+        let effects = match top.optional_section("physics")? {
+            Some(physics) if physics.has("effects") => physics.texts("effects")?,
+            _ => Vec::new(),
+        };
         let included_physics = match top.optional_section("physics")? {
             None => vec![AXIAL_MOTION, INVERSE_SQUARE_FALLOFF],
             Some(physics) if physics.has("included") => physics.texts("included")?,
@@ -88,12 +94,14 @@ impl Camera {
             correlation_amplitude,
             correlation_phase_rad,
             included_physics: included_physics.into_iter().map(str::to_owned).collect(),
+            effects: effects.into_iter().map(str::to_owned).collect(),
         })
     }
 
     /// Whether the simulation includes `effect`, such as [`INVERSE_SQUARE_FALLOFF`].
     pub fn includes(&self, effect: &str) -> bool {
-        self.included_physics.iter().any(|included| included == effect)
+        let is_it = |text: &String| text.split([':', '@']).next() == Some(effect);
+        self.included_physics.iter().any(|included| included == effect) || self.effects.iter().any(is_it)
     }
 
     /// Radial over axial distance, √(1 + (x² + y²)/focal_length²), x and y in pixels from the sensor's centre.
@@ -106,10 +114,15 @@ impl Camera {
 
     /// The text of a file that reads as this camera.
     pub fn to_toml(&self) -> String {
+        // Files of before had no effects, and stay as they were.
+        let effects = match self.effects.is_empty() {
+            true => String::new(),
+            false => format!("effects = {}\n", toml::Value::from(self.effects.clone())),
+        };
         format!(
             "[sensor]\nwidth = {}\nheight = {}\nadc_bits = {}\npedestal_dn = {:?}\ngain_e_per_dn = {:?}\n\
              read_noise_e = {:?}\nfocal_length_px = {:?}\n\
-             \n[correlation]\namplitude = {:?}\nphase_rad = {:?}\n\n[physics]\nincluded = {}\n",
+             \n[correlation]\namplitude = {:?}\nphase_rad = {:?}\n\n[physics]\nincluded = {}\n{effects}",
             self.geometry.width,
             self.geometry.height,
             self.adc_bits,

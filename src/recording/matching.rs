@@ -337,6 +337,7 @@ mod tests {
             correlation_amplitude: vec![1.0],
             correlation_phase_rad: vec![0.0],
             included_physics: vec![],
+            effects: Vec::new(),
         });
         let (pipeline, sentences) = pipeline_for(&narrow, &base, SchemeChoice::Specified).unwrap();
         assert_eq!((pipeline.sensor.adc_bits, pipeline.sensor.saturation_dn), (8, 255));

@@ -148,6 +148,7 @@ mod tests {
             correlation_amplitude: vec![1.0, 0.0, 0.024],
             correlation_phase_rad: vec![0.0, 0.0, -0.24],
             included_physics: vec!["inverse_square_falloff".to_owned(), "of another program".to_owned()],
+            effects: Vec::new(),
         }
     }
 
