@@ -137,6 +137,18 @@ impl<'a> Fields<'a> {
             .ok_or_else(|| self.refuse(field, expected))
     }
 
+    /// The tables [[field]], none where it is absent.
+    pub fn tables(&self, field: &str) -> Result<Vec<Fields<'a>>> {
+        let expected = format!("tables [[{}]]", self.name(field));
+        let Some(value) = self.table.get(field) else { return Ok(Vec::new()) };
+        let values = value.as_array().ok_or_else(|| self.refuse(field, &expected))?;
+        let table = |(number, value): (usize, &'a Value)| {
+            let table = value.as_table().ok_or_else(|| self.refuse(field, &expected))?;
+            Ok(Fields { file: self.file, path: format!("{}[{number}]", self.name(field)), table })
+        };
+        values.iter().enumerate().map(table).collect()
+    }
+
     /// A list of whole numbers.
     pub fn integers(&self, field: &str, expected: &str) -> Result<Vec<i64>> {
         self.table

@@ -22,7 +22,7 @@ const EDGES: &Edges = &[
     ("algorithms", "problem spec units"),
     ("bench", "frames physics problem recording spec units"),
     ("paper", "algorithms frames physics problem units"),
-    ("diagnose", "bench frames physics problem recording spec units"),
+    ("diagnose", "bench fields frames physics problem recording spec units"),
     ("ranging", "problem recording reference units"),
     ("proof", "artifact cosim frames hdl problem spec"),
     ("sweep", "model physics problem spec units"),

@@ -232,6 +232,50 @@ fn what_no_effect_explains_is_unexplained_and_located() {
     assert_eq!(verdict["located"][0]["coordinate"], "row");
 }
 
+const LIBRARY: &str = r#"
+[[effect]]
+name = "row_ripple"
+sentence = "The supply's ripple stands on the rows while they are read, the same in every second set."
+acts_on = "signal"
+formula = "amplitude_dn * sin(1.9 * row) * (1 - 2 * (set % 2))"
+[[effect.parameter]]
+name = "amplitude_dn"
+unit = "DN"
+bounds = [-50, 50]
+typical = 1
+"#;
+
+#[test]
+fn what_is_unexplained_is_named_when_the_user_gives_its_formula() {
+    let folder = tempfile::tempdir().unwrap();
+    let ripple = campaign(folder.path(), "ripple", &[], "23");
+    rewrite(&ripple, |set, _, row, code| {
+        code + 3.0 * (1.9 * row as f64).sin() * (1.0 - 2.0 * (set % 2) as f64)
+    });
+    let before = verdict(&ripple);
+    assert_eq!((before["verdict"].as_str(), names(&before).len()), (Some("unexplained"), 0), "{before:#}");
+    let library = folder.path().join("library.toml");
+    std::fs::write(&library, LIBRARY).unwrap();
+    let arguments =
+        ["diagnose", ripple.to_str().unwrap(), "--json", "-", "--library", library.to_str().unwrap()];
+    let (good, text) = vuris(&arguments);
+    assert!(good, "{text}");
+    let after: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(names(&after), ["row_ripple"], "{after:#}");
+    let (value, sigma) = parameter(&after, "amplitude_dn");
+    assert!((value - 3.0).abs() < 4.0 * sigma + 0.01, "{value} {sigma}");
+    for (from, to, words) in [
+        ("row)", "line)", "neither a parameter nor a coordinate"),
+        ("row_ripple", "image_lag", "no other effect has"),
+        ("\"signal\"", "\"sound\"", "signal, phase, amplitude or ambient"),
+        ("sin(", "sin((", "formula"),
+    ] {
+        std::fs::write(&library, LIBRARY.replacen(from, to, 1)).unwrap();
+        let (good, text) = vuris(&arguments);
+        assert!(!good && text.contains(words), "{from}: {text}");
+    }
+}
+
 #[test]
 fn codes_without_their_low_bits_are_the_cameras_own_arithmetic() {
     let folder = tempfile::tempdir().unwrap();

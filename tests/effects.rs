@@ -225,6 +225,7 @@ fn broken_effects_are_caught() {
             chance: Chance::None,
             looks_back: false,
             act,
+            formula: None,
         }))
     }
     fn add(exposure: &mut Exposure, dn: f64) {

@@ -4,7 +4,8 @@ use super::campaign::recordings_in;
 use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
-use crate::diagnose::{Data, Diagnosis, camera_with, diagnose};
+use crate::diagnose::{Data, Diagnosis, camera_with, diagnose, library};
+use crate::physics::Effect;
 use crate::problem::{Problem, Result};
 use crate::recording::Recording;
 use crate::report::{diagnosis_page, diagnosis_text};
@@ -18,6 +19,9 @@ pub(super) struct Diagnose {
     /// Campaigns, or single recordings
     #[arg(required = true, value_name = "CAMPAIGN")]
     campaigns: Vec<PathBuf>,
+    /// Effects of your own, as formulas
+    #[arg(long, value_name = "FILE.toml")]
+    library: Option<PathBuf>,
     /// Write the verdict as JSON; `-` for standard output
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -41,8 +45,16 @@ impl Diagnose {
             .expected("one campaign for one file")
             .remedy("diagnose them one by one"));
         }
+        let library = match &self.library {
+            None => Vec::new(),
+            Some(file) => {
+                let text =
+                    std::fs::read_to_string(file).map_err(|error| Problem::io(file, "read", &error))?;
+                library(&file.display().to_string(), &text)?
+            }
+        };
         for campaign in &self.campaigns {
-            let data = read(campaign)?;
+            let data = read(campaign, &library)?;
             let what = format!("diagnosing {}", campaign.display());
             let diagnosis: Diagnosis = progress::during(what, || diagnose(&data));
             let text = serde_json::to_string_pretty(&diagnosis.answer)
@@ -68,8 +80,8 @@ impl Diagnose {
 }
 
 /// The recordings in `campaign`.
-fn read(campaign: &Path) -> Result<Data> {
+fn read(campaign: &Path, library: &[&'static Effect]) -> Result<Data> {
     let recordings: Vec<Recording> =
         recordings_in(campaign)?.iter().map(|folder| Recording::open(folder)).collect::<Result<_>>()?;
-    Data::of(&recordings)
+    Data::of(&recordings, library.to_vec())
 }

@@ -166,7 +166,7 @@ impl<'a> Tangents<'a> {
             Some(Change::More(more, step)) => {
                 let station = &stations[more.effect.place as usize];
                 let mut exposure = station.clone();
-                (more.effect.act)(&more.values, &mut exposure);
+                more.effect.act_on(&more.values, &mut exposure);
                 if exposure.stands_as(station) {
                     return Vec::new();
                 }

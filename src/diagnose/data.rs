@@ -2,7 +2,7 @@
 
 use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
-use crate::physics::{Active, Moment};
+use crate::physics::{Active, Effect, Moment, effects};
 use crate::problem::{Problem, Result};
 use crate::recording::{Camera, Recording};
 
@@ -32,6 +32,8 @@ pub struct Data {
     pub target: Vec<bool>,
     /// Low bits that no code of any recording has set.
     pub cut_bits: u32,
+    /// Effects that may be found beside those of the registry.
+    pub library: Vec<&'static Effect>,
     /// Whether there is a recording without the camera's light.
     has_dark: bool,
 }
@@ -40,11 +42,11 @@ pub struct Data {
 const CLIPPED_DN: u32 = 2;
 
 impl Data {
-    /// The recordings of one campaign.
+    /// The recordings of one campaign, in which effects of `library` may be found besides.
     ///
     /// # Errors
     /// No recording, no camera, recordings that do not belong together, and a set of which nothing can be simulated.
-    pub fn of(recordings: &[Recording]) -> Result<Self> {
+    pub fn of(recordings: &[Recording], library: Vec<&'static Effect>) -> Result<Self> {
         let Some(first) = recordings.first() else {
             return Err(
                 Problem::at("diagnosis", "no recording").expected("a recording, or a campaign of recordings")
@@ -81,7 +83,7 @@ impl Data {
         let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
         let union = recordings.iter().flat_map(|r| r.raw.codes()).fold(0, |union, code| union | code);
         let cut_bits = if union == 0 { 0 } else { union.trailing_zeros() };
-        Ok(Self { camera, takes, target, cut_bits, has_dark })
+        Ok(Self { camera, takes, target, cut_bits, library, has_dark })
     }
 
     /// All sets: recording, and number of the set within it.
@@ -122,6 +124,11 @@ impl Data {
             take.signal_dn[set * samples..(set + 1) * samples].fill(f32::NAN);
         }
         Some(data)
+    }
+
+    /// The effect called `name`, of the registry or the library.
+    pub fn effect(&self, name: &str) -> Option<&'static Effect> {
+        effects::named(name).or_else(|| self.library.iter().copied().find(|effect| effect.name == name))
     }
 
     /// Number of pixels.

@@ -107,6 +107,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
     };
     EFFECTS
         .iter()
+        .chain(&data.library)
         .copied()
         .filter(|effect| {
             effect.chance == Chance::None && effect.name != effects::FIXED_POINT && !included(effect)

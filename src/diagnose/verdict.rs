@@ -8,7 +8,6 @@ use super::pieces::Piece;
 use super::search::Named;
 use super::settle::{outlying, with_mask};
 use super::stated_noise;
-use crate::physics::effects;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -176,7 +175,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     let is_clean = *verdict == Verdict::Clean;
     let seen = |place: &Place| located(data, judgement, place);
     let smallest = found.detectable.iter().filter_map(|&(name, parameter, value)| {
-        let parameter = effects::named(name)?.parameters.get(parameter)?;
+        let parameter = data.effect(name)?.parameters.get(parameter)?;
         Some(Smallest { name, parameter: parameter.name, value: rounded(value), unit: parameter.unit })
     });
     Answer {
@@ -261,7 +260,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
-    let sentence = effects::named(named.name).map_or("", |effect| effect.sentence);
+    let sentence = data.effect(named.name).map_or("", |effect| effect.sentence);
     let names: Vec<&str> = judgement.named.iter().map(|named| named.name).collect();
     let mut also_possible: Vec<String> = Vec::new();
     for rival in &named.rivals {
@@ -314,7 +313,7 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRo
     if rows.is_empty() {
         // A random effect is not fitted: its strength is the cluster's.
         let cluster = judgement.random.filter(|(random, _)| *random == name);
-        let parameter = effects::named(name).and_then(|effect| effect.parameters.first());
+        let parameter = data.effect(name).and_then(|effect| effect.parameters.first());
         rows.extend(cluster.zip(parameter).map(|((_, sigma), parameter)| ParameterRow {
             name: parameter.name.to_owned(),
             value: sigma,

@@ -106,7 +106,7 @@ impl Chain {
             for (number, Active { effect, values }) in self.effects.iter().enumerate() {
                 if effect.place == place {
                     exposure.deviate = exposure.deviates.get(number).copied().unwrap_or(0.0);
-                    (effect.act)(values, exposure);
+                    effect.act_on(values, exposure);
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! What an effect is: parameters, the place in the chain where it acts, the forward model there.
 
 use super::exposure::Exposure;
+use super::formula::Formula;
 
 /// A parameter of an effect.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,9 +127,19 @@ pub struct Effect {
     pub looks_back: bool,
     /// The forward model: what these values of the parameters do to a frame that has come to [`Effect::place`].
     pub act: fn(&[f64], &mut Exposure),
+    /// What acts instead, of an effect that a user gives as a formula.
+    pub formula: Option<Formula>,
 }
 
 impl Effect {
+    /// Does to `exposure` what these values of the parameters do.
+    pub fn act_on(&self, values: &[f64], exposure: &mut Exposure) {
+        match &self.formula {
+            Some(formula) => formula.act(values, exposure),
+            None => (self.act)(values, exposure),
+        }
+    }
+
     /// The values at which it does nothing.
     pub fn off(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.off).collect()

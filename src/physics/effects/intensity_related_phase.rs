@@ -12,6 +12,7 @@ pub static EFFECT: Effect = Effect {
     chance: Chance::None,
     looks_back: false,
     act,
+    formula: None,
 };
 
 /// The amplitude at which nothing is added, DN: any other moves the pixel's own phase.

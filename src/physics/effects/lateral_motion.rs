@@ -15,6 +15,7 @@ pub static EFFECT: Effect = Effect {
     chance: Chance::None,
     looks_back: false,
     act,
+    formula: None,
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -32,6 +32,7 @@ pub static EFFECT: Effect = Effect {
     chance: Chance::None,
     looks_back: false,
     act,
+    formula: None,
 };
 
 const SETTINGS: f64 = 12.0;

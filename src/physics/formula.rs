@@ -1,0 +1,126 @@
+//! An effect as a formula over the coordinates of a sample.
+
+use super::effect::Place;
+use super::exposure::Exposure;
+use crate::problem::{Problem, Result};
+use exmex::{Express, FlatEx};
+
+/// What a formula changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// Adds so many DN to the signal.
+    Signal,
+    /// Adds so many rad to the phase.
+    Phase,
+    /// Raises the amplitude of the camera's own light by this share.
+    Amplitude,
+    /// Raises the ambient light by this share.
+    Ambient,
+}
+
+impl Target {
+    /// All, by the names that files use.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("signal", Self::Signal),
+        ("phase", Self::Phase),
+        ("amplitude", Self::Amplitude),
+        ("ambient", Self::Ambient),
+    ];
+
+    /// Where in the chain it is changed.
+    pub fn place(self) -> Place {
+        match self {
+            Self::Signal => Place::Charge,
+            Self::Phase => Place::Path,
+            Self::Amplitude | Self::Ambient => Place::Light,
+        }
+    }
+}
+
+/// The value of a coordinate for a pixel of a frame.
+type Coordinate = fn(&Exposure, usize) -> f64;
+
+/// The coordinates, as formulas call them.
+const COORDINATES: [(&str, Coordinate); 13] = [
+    ("phase", |e, pixel| e.phase_rad.get(pixel).copied().unwrap_or(0.0)),
+    ("angle", |e, _| e.angle_rad),
+    ("position_m", |e, _| e.position_m + e.motion_share * e.way_m()),
+    ("encoder_m", |e, _| e.moment.position_m),
+    ("velocity_m_s", |e, _| e.velocity_m_s),
+    ("frame", |e, _| e.moment.frame as f64),
+    ("frames", |e, _| e.moment.frames as f64),
+    ("set", |e, _| e.moment.set as f64),
+    ("time_s", |e, _| e.moment.time_s),
+    ("row", |e, pixel| (pixel / e.pixels.geometry.width) as f64),
+    ("column", |e, pixel| (pixel % e.pixels.geometry.width) as f64),
+    ("signal", |e, pixel| e.signal_dn.get(pixel).copied().unwrap_or(0.0)),
+    ("amplitude", |e, pixel| e.amplitude_dn.get(pixel).copied().unwrap_or(0.0)),
+];
+
+/// Where a variable's value comes from.
+#[derive(Debug, Clone, Copy)]
+enum Variable {
+    Parameter(usize),
+    Coordinate(usize),
+}
+
+/// A formula, and what it changes.
+#[derive(Debug, Clone)]
+pub struct Formula {
+    target: Target,
+    expression: FlatEx<f64>,
+    variables: Vec<Variable>,
+}
+
+impl Formula {
+    /// Reads `text`, whose variables are `parameters` and coordinates.
+    ///
+    /// # Errors
+    /// A text that is no formula, or a variable that is neither.
+    pub fn new(target: Target, text: &str, parameters: &[&str]) -> Result<Self> {
+        let expression: FlatEx<f64> = exmex::parse(text).map_err(|error| {
+            Problem::at("formula", format_args!("{text}: {error}"))
+                .expected("a formula such as a * sin(6.28 * row / 5)")
+        })?;
+        let variables = expression.var_names().iter().map(|name| {
+            if let Some(number) = parameters.iter().position(|parameter| parameter == name) {
+                return Ok(Variable::Parameter(number));
+            }
+            let number = COORDINATES.iter().position(|(known, _)| known == name);
+            number.map(Variable::Coordinate).ok_or_else(|| {
+                let names: Vec<&str> = COORDINATES.iter().map(|(name, _)| *name).collect();
+                Problem::at("formula", format_args!("{text}: {name} is neither a parameter nor a coordinate"))
+                    .expected(format_args!("parameters ({}) and {}", parameters.join(", "), names.join(", ")))
+            })
+        });
+        let variables = variables.collect::<Result<_>>()?;
+        Ok(Self { target, expression, variables })
+    }
+
+    /// Does to `exposure` what the formula says with these values of the parameters. Where it has no finite value, it does nothing.
+    pub fn act(&self, values: &[f64], exposure: &mut Exposure) {
+        let mut arguments = vec![0.0; self.variables.len()];
+        let change = |exposure: &Exposure, arguments: &mut Vec<f64>, pixel: usize| {
+            for (argument, variable) in arguments.iter_mut().zip(&self.variables) {
+                *argument = match *variable {
+                    Variable::Parameter(number) => values[number],
+                    Variable::Coordinate(number) => (COORDINATES[number].1)(exposure, pixel),
+                };
+            }
+            self.expression.eval(arguments).ok().filter(|value| value.is_finite()).unwrap_or(0.0)
+        };
+        let count = exposure.pixels.count();
+        let changes: Vec<f64> = (0..count).map(|pixel| change(exposure, &mut arguments, pixel)).collect();
+        let (values, is_share): (&mut [&mut Vec<f64>], bool) = match self.target {
+            Target::Signal => (&mut [&mut exposure.signal_dn], false),
+            Target::Phase => (&mut [&mut exposure.phase_rad], false),
+            Target::Amplitude => (&mut [&mut exposure.amplitude_dn, &mut exposure.constant_dn], true),
+            Target::Ambient => (&mut [&mut exposure.ambient_dn], true),
+        };
+        for values in values {
+            for (value, change) in values.iter_mut().zip(&changes) {
+                *value += if is_share { *value * change } else { *change };
+            }
+        }
+    }
+}
