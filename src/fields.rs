@@ -137,7 +137,7 @@ impl<'a> Fields<'a> {
             .ok_or_else(|| self.refuse(field, expected))
     }
 
-    /// The tables [[field]], none where it is absent.
+    /// The tables `[[field]]`, none where it is absent.
     pub fn tables(&self, field: &str) -> Result<Vec<Fields<'a>>> {
         let expected = format!("tables [[{}]]", self.name(field));
         let Some(value) = self.table.get(field) else { return Ok(Vec::new()) };
