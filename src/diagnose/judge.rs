@@ -33,7 +33,7 @@ pub struct Place {
     pub ln_bayes: f64,
     /// Chi squared that it explains, and by how many numbers.
     pub chi2: (f64, usize),
-    /// The recording that shows it most.
+    /// The recording that shows it most; of columns, the one with the greatest misfit.
     pub take: usize,
     /// Whether samples share it at random.
     pub is_random: bool,
@@ -207,7 +207,7 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
             shape: located.shape.clone(),
             ln_bayes: located.ln_bayes,
             chi2: located.chi2,
-            take: 0,
+            take: location.take,
             is_random: false,
         })
         .collect();

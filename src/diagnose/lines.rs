@@ -106,6 +106,16 @@ impl Series {
         self
     }
 
+    /// The recording whose residuals exceed the noise most.
+    pub fn worst_take(&self) -> usize {
+        let takes = self.sets.iter().map(|seen| seen.take + 1).max().unwrap_or(0);
+        let mut excess = vec![0.0; takes];
+        for seen in &self.sets {
+            excess[seen.take] += seen.chi2.0 - seen.chi2.1 as f64;
+        }
+        (0..takes).max_by(|&a, &b| excess[a].total_cmp(&excess[b])).unwrap_or(0)
+    }
+
     /// The strongest line in time of a mode, with a phase of its own in every recording, Hz.
     pub fn in_time(&self, mode: usize, ends: (f64, f64)) -> Option<Line> {
         // A line that frames see at rest is a drift.

@@ -30,6 +30,8 @@ pub struct Location {
     pub columns: Vec<Located>,
     /// Random errors, best first.
     pub clusters: Vec<Cluster>,
+    /// The recording with the greatest misfit.
+    pub take: usize,
     /// Mean residuals over coordinates.
     pub curves: Vec<Profile>,
     /// Root of each pixel's chi squared a sample.
@@ -65,7 +67,13 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         })
         .collect();
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
-    Location { columns, clusters: clusters.ranked(), curves: profiles.curves(&bounds), map: profiles.map() }
+    Location {
+        columns,
+        clusters: clusters.ranked(),
+        take: base.series.worst_take(),
+        curves: profiles.curves(&bounds),
+        map: profiles.map(),
+    }
 }
 
 /// Evidence and explained chi squared of a coordinate's columns together, and which of them alone says most.
