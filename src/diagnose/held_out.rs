@@ -148,7 +148,11 @@ impl Sets {
             let sum: Complex64 = self.phasors.iter().map(|(measured, model)| measured * model.conj()).sum();
             let distance_m =
                 if moment.lit { sum.arg() / phase_rad(1.0, moment.frequency_hz) } else { f64::NAN };
-            self.seen.push((whitened.set, (whitened.take, self.now.0, self.now.1, self.now.2, distance_m)));
+            // A set that was left out has no samples, and is not predicted.
+            if self.now.1 > 0 {
+                let (chi2, samples, square) = self.now;
+                self.seen.push((whitened.set, (whitened.take, chi2, samples, square, distance_m)));
+            }
             self.now = (0.0, 0, 0.0);
             self.phasors.clear();
         }

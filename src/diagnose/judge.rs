@@ -2,10 +2,10 @@
 
 use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
-use super::fit::{Fit, unfitted};
+use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
 use super::location::{Location, locate};
-use super::pieces::tolerance;
+use super::pieces::{Piece, tolerance};
 use super::search::{Found, Named, search};
 use crate::physics::effects;
 
@@ -65,7 +65,7 @@ pub struct Judgement {
     pub named: Vec<Named>,
     /// Of the mismatch, the share that the named effects leave.
     pub remainder: f64,
-    /// What is left by the simulation that the camera describes, and by the search's fit.
+    /// What is left by the simulation that the camera describes, and by the fit that is asserted.
     pub locations: [Location; 2],
     /// A random effect, and its standard deviation.
     pub random: Option<(&'static str, f64)>,
@@ -142,9 +142,23 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     if verdict == Verdict::Clean {
         places.clear();
     }
-    let fit = if named.is_empty() { found.baseline.clone() } else { found.fit.clone() };
-    let locations = [baseline, end];
+    let fit = asserted(data, &found, &named, noise);
+    let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
+    let locations = [baseline, after];
     Judgement { verdict, places, left, named, remainder, locations, random: strength, found, fit, noise }
+}
+
+/// The fit of what is `named` alone: the search may have found more than stands.
+fn asserted(data: &Data, found: &Found, named: &[Named], noise: Noise) -> Fit {
+    let stands = |piece: &&Piece| named.iter().any(|named| named.name == piece.effect.name);
+    let pieces: Vec<Piece> = found.fit.pieces.iter().filter(stands).cloned().collect();
+    if pieces.len() == found.fit.pieces.len() {
+        found.fit.clone()
+    } else if pieces.is_empty() {
+        found.baseline.clone()
+    } else {
+        fit(data, Some(&found.baseline), pieces, noise, &|_| true)
+    }
 }
 
 /// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not.
