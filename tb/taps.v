@@ -91,7 +91,7 @@ module bench_taps (
   );
 
   assign padding_o = |(m_axis_tdata & [[ bench.padding ]]);
-  assign refused_o = (!dut.sums_valid && !dut.sums_taken) || (!dut.result_valid && !dut.advance);
+  assign refused_o = [[ bench.refused ]];
 [% for stage in bench.stages %]
   // [[ stage.name ]]
   assign strobe_o[ [[- stage.number -]] ] = [[ stage.strobe ]];

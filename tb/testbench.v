@@ -337,8 +337,9 @@ module testbench;
         s_axil_wstrb  <= head[11:8];
       end
     end
-    s_axil_bready <= $unsigned($random(register_seed)) % 100 >= stop;
-    s_axil_rready <= $unsigned($random(register_seed)) % 100 >= stop;
+    // Every other answer is waited for, not made ready for: a core that waits for readiness waits for ever.
+    s_axil_bready <= $unsigned($random(register_seed)) % 100 >= stop && (answer % 2 == 0 || s_axil_bvalid === 1'b1);
+    s_axil_rready <= $unsigned($random(register_seed)) % 100 >= stop && (answer % 2 == 0 || s_axil_rvalid === 1'b1);
 [%- endif %]
 
     // What the modulation hardware is told.
@@ -396,7 +397,7 @@ module testbench;
       else if (first_taken >= 0) first_taken = first_taken + 1;
     end
     if (rst_n && (dut.sums_valid && dut.sums_taken) === 1'b1) drained = drained + 1;
-    if (rst_n && ((!dut.sums_valid && !dut.sums_taken) || (!dut.result_valid && !dut.advance)) !== 1'b0) begin
+    if (rst_n && ([[ bench.refused ]]) !== 1'b0) begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) $display("REFUSED clock=%0d: an empty register holds up what comes before it", clocks);
     end

@@ -74,6 +74,7 @@ struct Bench {
     user_mask: u32,
     result_bits: u32,
     padding: String,
+    refused: String,
 }
 
 #[derive(Template)]
@@ -103,6 +104,17 @@ fn padding(pipeline: &Pipeline) -> String {
         |digit: u32| (0..4).filter(|&bit| !within(4 * digit + bit)).map(|bit| 1_u32 << bit).sum::<u32>();
     let digits: String = (0..bits.div_ceil(4)).rev().map(|number| format!("{:x}", digit(number))).collect();
     format!("{bits}'h{digits}")
+}
+
+/// Where a register that holds nothing does not take what comes before it.
+fn refused(pipeline: &Pipeline) -> String {
+    let mut registers = vec![("dut.sums_valid", "dut.sums_taken"), ("dut.result_valid", "dut.advance")];
+    // An angle unit that takes a vector a clock moves as one, unless its last word waits.
+    if pipeline.derived().angle.clocks_a_vector(0) == 1 {
+        registers.push(("dut.angle_valid", "dut.angle_ready"));
+    }
+    let terms = registers.iter().map(|(full, takes)| format!("(!{full} && !{takes})"));
+    terms.collect::<Vec<_>>().join(" || ")
 }
 
 fn bench(source: &Source, golden: &Golden) -> Bench {
@@ -174,6 +186,7 @@ fn bench(source: &Source, golden: &Golden) -> Bench {
         user_mask: (1 << user_bits) - 1,
         result_bits: result_bits(pipeline),
         padding: padding(pipeline),
+        refused: refused(pipeline),
     }
 }
 
