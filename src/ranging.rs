@@ -48,10 +48,7 @@ pub fn range_errors(recording: &Recording, range_m: &[f64], valid: &[bool]) -> R
         return Err(refuse("has no camera.toml: the distance of a pixel needs sensor.focal_length_px"));
     };
     let unambiguous_m = unambiguous_range_m(recording.frequency_hz);
-    let obliquity: Vec<f64> = (0..pixels)
-        .map(|pixel| geometry.row_column(pixel))
-        .map(|(row, column)| camera.obliquity(row, column))
-        .collect();
+    let obliquity = camera.obliquities();
     let mut error_m = vec![None; sets * pixels];
     for (set, row) in recording.sets.iter().enumerate() {
         let Some(position_m) = row.position_m else { continue };

@@ -4,6 +4,7 @@
 //! a cluster's score and k its information.
 
 use super::data::Data;
+use super::evidence::of_variance;
 use super::gram::Whitened;
 
 /// Which samples share an error.
@@ -213,8 +214,7 @@ fn add(curve: &mut [f64; STEPS], informed: &mut [f64; 4], mode: usize, sums: &[(
         let variance = variance(mode, step as f64);
         for &sum in sums.iter().filter(|sum| sum.1 > 0.0) {
             let (score, information) = if is_tame { tame(sum) } else { sum };
-            let share = variance * information;
-            *evidence += 0.5 * variance * score * score / (1.0 + share) - 0.5 * share.ln_1p();
+            *evidence += of_variance(variance, score, information);
         }
     }
 }

@@ -136,16 +136,19 @@ impl<'a> Tangents<'a> {
         (Self { data, chains, count: columns.len() }, columns)
     }
 
+    /// The base's signal alone, DN.
+    pub fn base(&self, take: usize, index: usize) -> Vec<f64> {
+        let moments = &self.data.takes[take].moments;
+        expose(&self.chains[take].base, moments[index], before(moments, index))
+    }
+
     /// Frame number `index` of recording `take`.
     pub fn frame(&self, take: usize, index: usize) -> Frame {
         let moments = &self.data.takes[take].moments;
         let moment = moments[index];
         let chains = &self.chains[take];
         let before = before(moments, index);
-        let expose = |chain: &Chain, moment: Moment| {
-            let before_dn = chain.looks_back().then(|| chain.arrive(before, Memory::default()));
-            chain.expose(moment, Memory { before_dn, ..Memory::default() }).signal_dn
-        };
+        let expose = |chain: &Chain, moment: Moment| expose(chain, moment, before);
         let ambient = chains.base.pixels.ambient_dn.clone();
         let base = expose(&chains.base, moment);
         let difference = |signal: Vec<f64>, step: f64| -> Vec<f64> {
@@ -183,6 +186,12 @@ impl<'a> Tangents<'a> {
     pub fn count(&self) -> usize {
         self.count
     }
+}
+
+/// The signal of `chain` at `moment`, DN, after the frame `before`.
+fn expose(chain: &Chain, moment: Moment, before: Moment) -> Vec<f64> {
+    let before_dn = chain.looks_back().then(|| chain.arrive(before, Memory::default()));
+    chain.expose(moment, Memory { before_dn, ..Memory::default() }).signal_dn
 }
 
 /// The frame before: of the same set, or, of a set's first, what a camera that runs on evenly had taken then.

@@ -3,7 +3,7 @@
 //! A column is a way in which frames may be off (more light, more signal, another phase) times a function of the coordinate.
 
 use super::columns::Frame;
-use super::ranges::{Ranges, way_m};
+use super::ranges::Ranges;
 use crate::frames::Geometry;
 use crate::physics::{Moment, Pixels, cos_sin};
 use crate::units::phase_rad;
@@ -118,7 +118,7 @@ pub const COORDINATES: [Coordinate; 11] = [
         name: "position_m",
         columns: |_| 3 * POSITIONS,
         fill: |view| {
-            let position_m = view.moment.position_m + way_m(view.moment);
+            let position_m = view.moment.commanded_m();
             by_frame(view, POSITIONS, &hats(within(position_m, view.ranges.position_m), POSITIONS))
         },
         shape: |ranges, column| {
@@ -239,7 +239,7 @@ fn amplitude_dn(view: &View) -> Vec<f64> {
 /// Phase: of the range (not of the offset) in cycles a turn as phase and gain errors, and of the waveform.
 fn phase(view: &View) -> Acting {
     let moment = view.moment;
-    let position_m = moment.position_m + way_m(moment);
+    let position_m = moment.commanded_m();
     let count = view.frame.base.len();
     let amplitude = amplitude_dn(view);
     let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; 6 * CYCLES];

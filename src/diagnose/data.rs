@@ -66,7 +66,7 @@ impl Data {
                     .expected(format_args!("{} x {}", geometry.width, geometry.height)));
             }
             let course = Course::of(recording)?;
-            let full_scale = (1_u32 << camera.adc_bits) - 1;
+            let full_scale = camera.full_scale();
             let signal = |&code: &u32| match code {
                 0 => f32::NAN,
                 code if code + CLIPPED_DN > full_scale => f32::NAN,
@@ -92,6 +92,14 @@ impl Data {
             (0..recording.moments.len() / recording.frames).map(move |set| (take, set))
         };
         self.takes.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// How many frames a set may have, ascending: each number once.
+    pub fn schemes(&self) -> Vec<usize> {
+        let mut frames: Vec<usize> = self.takes.iter().map(|take| take.frames).collect();
+        frames.sort_unstable();
+        frames.dedup();
+        frames
     }
 
     /// The sensor's pixels.

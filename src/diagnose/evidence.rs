@@ -46,6 +46,12 @@ const LEAST_RHO: f64 = 1.0;
 const LEAST_EIGENVALUE: f64 = 1e-4;
 const LEAST_PRIOR: f64 = 4.0;
 
+/// Evidence for a common error of `variance` in one cluster whose score and information are these, nats.
+pub fn of_variance(variance: f64, score: f64, information: f64) -> f64 {
+    let share = variance * information;
+    0.5 * variance * score * score / (1.0 + share) - 0.5 * share.ln_1p()
+}
+
 /// Whether `information` that is left of `raw` shows a number that reaches up to `reach`.
 pub fn is_seen(information: f64, raw: f64, reach: f64) -> bool {
     information > VISIBLE * raw && information.sqrt() * reach > LEAST_RHO

@@ -1,6 +1,6 @@
 //! The fit of the full forward model: the pixels' own numbers and the effects' parameters together, by Gauss and Newton.
 
-use super::columns::{Column, Frame, OWN, Tangents};
+use super::columns::{Column, OWN, Tangents};
 use super::data::Data;
 use super::gram::{Gram, Noise, Projected, Whitened};
 use super::lines::Series;
@@ -37,23 +37,19 @@ pub const BACKGROUND_M: f64 = 1.0;
 fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
     let geometry = data.geometry();
     let camera = &data.camera;
-    let obliquity = (0..geometry.pixels()).map(|pixel| {
-        let (row, column) = geometry.row_column(pixel);
-        camera.obliquity(row, column)
-    });
     let edges = Pixels::edges_of(geometry, &data.target);
     let edge_counts = Pixels::edge_counts_of(&edges);
     let [amplitude_1m_dn, phase_rad, constant_1m_dn, ambient_dn] = numbers;
     Pixels {
         geometry,
         target: data.target.clone(),
-        obliquity: obliquity.collect(),
+        obliquity: camera.obliquities(),
         background_m: vec![BACKGROUND_M; geometry.pixels()],
         phase_rad,
         amplitude_1m_dn,
         constant_1m_dn,
         ambient_dn,
-        full_scale_dn: f64::from((1_u32 << camera.adc_bits) - 1) - camera.pedestal_dn,
+        full_scale_dn: f64::from(camera.full_scale()) - camera.pedestal_dn,
         pedestal_dn: camera.pedestal_dn,
         edges,
         edge_counts,
@@ -125,8 +121,10 @@ fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
     }
 }
 
-/// Iterations of Gauss and Newton: the pixels' own numbers start close.
-const ITERATIONS: usize = 3;
+/// Iterations of Gauss and Newton at most: the pixels' own numbers start close.
+const ITERATIONS: usize = 5;
+/// A step that would lower chi squared by less is none: a standard deviation of one number is 1.
+const ENOUGH: f64 = 0.1;
 
 /// Fits `pieces` from their values on, with the pixels of `from` or from scratch, to the sets of which `counts` is true.
 pub fn fit(
@@ -139,26 +137,14 @@ pub fn fit(
     let mut pixels = from.map_or_else(|| start(data, counts), |fit| Arc::clone(&fit.pixels));
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
-    let iterations = if pieces.is_empty() { ITERATIONS } else { ITERATIONS + 2 };
-    for _ in 0..iterations {
-        (pixels, pieces) = improved(data, &pixels, pieces, noise, counts);
+    for _ in 0..ITERATIONS {
+        let round = Round::new(data, &pixels, &pieces, noise, counts);
+        if round.gain < ENOUGH {
+            return round.end(pixels, pieces);
+        }
+        (pixels, pieces) = round.step(&pixels, pieces);
     }
-    let (tangents, columns) = Tangents::new(data, &pixels, &pieces, &[]);
-    let fill = |_: usize, _: usize, _: &Frame| vec![Vec::new()];
-    let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
-    let (gram, series) = Gram::with_blocks(data, &tangents, noise, counts, &[0], &fill, &visit, &Series::and);
-    let projected = gram.project(None);
-    let (_, sigma) = step(&projected, &reaches(&columns, &pieces));
-    Fit {
-        pixels,
-        pieces,
-        columns,
-        sigma,
-        chi2: projected.chi2,
-        samples: gram.samples,
-        jitter_m2: projected.jitter_m2,
-        series,
-    }
+    Round::new(data, &pixels, &pieces, noise, counts).end(pixels, pieces)
 }
 
 /// The fit without any effect.
@@ -166,29 +152,65 @@ pub fn unfitted(data: &Data, noise: Noise) -> Fit {
     fit(data, None, Vec::new(), noise, &|_| true)
 }
 
-/// One step of Gauss and Newton for the sets of which `counts` is true.
+/// One step of Gauss and Newton from `fit` for the sets of which `counts` is true.
 pub fn improved(
     data: &Data,
-    pixels: &Arc<Pixels>,
-    mut pieces: Vec<Piece>,
+    fit: &Fit,
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> (Arc<Pixels>, Vec<Piece>) {
-    let (tangents, columns) = Tangents::new(data, pixels, &pieces, &[]);
-    let projected = Gram::of(data, &tangents, noise, counts).project(None);
-    let (theta, _) = step(&projected, &reaches(&columns, &pieces));
-    let own = projected.own(&theta);
-    let pixels = Arc::new(moved(pixels, &own));
-    for (column, step) in columns.iter().zip(theta.iter()) {
-        let piece = &mut pieces[column.piece];
-        let parameter = &piece.effect.parameters[column.parameter];
-        let value = &mut piece.values[column.parameter];
-        // A shape moves by a third of itself at most: its tangent holds nearby.
-        let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
-        *value = (*value + step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
+    Round::new(data, &fit.pixels, &fit.pieces, noise, counts).step(&fit.pixels, fit.pieces.clone())
+}
+
+/// The normal equations around a model, solved.
+struct Round {
+    columns: Vec<Column>,
+    projected: Projected,
+    theta: DVector<f64>,
+    sigma: Vec<f64>,
+    /// By how much the step lowers chi squared.
+    gain: f64,
+    samples: usize,
+    series: Series,
+}
+
+impl Round {
+    fn new(
+        data: &Data,
+        pixels: &Arc<Pixels>,
+        pieces: &[Piece],
+        noise: Noise,
+        counts: &(dyn Fn(usize) -> bool + Sync),
+    ) -> Self {
+        let (tangents, columns) = Tangents::new(data, pixels, pieces, &[]);
+        let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
+        let (gram, series) = Gram::visited(data, &tangents, noise, counts, &visit, &Series::and);
+        let projected = gram.project(None);
+        let (theta, sigma) = step(&projected, &reaches(&columns, pieces));
+        let gain = projected.settled + theta.dot(&projected.vector);
+        Self { columns, projected, theta, sigma, gain, samples: gram.samples, series }
     }
-    free_shapes(&mut pieces);
-    (pixels, pieces)
+
+    /// `pixels` and `pieces`, moved.
+    fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>) -> (Arc<Pixels>, Vec<Piece>) {
+        let pixels = Arc::new(moved(pixels, &self.projected.own(&self.theta)));
+        for (column, step) in self.columns.iter().zip(self.theta.iter()) {
+            let piece = &mut pieces[column.piece];
+            let parameter = &piece.effect.parameters[column.parameter];
+            let value = &mut piece.values[column.parameter];
+            // A shape moves by a third of itself at most: its tangent holds nearby.
+            let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
+            *value = (*value + step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
+        }
+        free_shapes(&mut pieces);
+        (pixels, pieces)
+    }
+
+    fn end(self, pixels: Arc<Pixels>, pieces: Vec<Piece>) -> Fit {
+        let Self { columns, projected, sigma, samples, series, .. } = self;
+        let Projected { chi2, jitter_m2, .. } = projected;
+        Fit { pixels, pieces, columns, sigma, chi2, samples, jitter_m2, series }
+    }
 }
 
 /// Shapes are fitted where there is something that has one.

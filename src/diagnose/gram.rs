@@ -3,6 +3,7 @@
 use super::columns::{Frame, OWN, Tangents};
 use super::coordinates::Acting;
 use super::data::Data;
+use super::evidence::of_variance;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
 
@@ -75,6 +76,21 @@ impl Noise {
 /// Residuals beyond so many standard deviations count as that many.
 const WINSOR: f64 = 4.0;
 
+/// Roots of the weights of a frame's pixels, 0 where a sample does not count, and the residual times them.
+pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise) -> (Vec<f64>, Vec<f64>) {
+    let pixels = data.pixels();
+    let signal = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
+    let whitened = |(&measured, &base): (&f32, &f64)| {
+        let measured = f64::from(measured);
+        if measured.is_nan() {
+            return (0.0, 0.0);
+        }
+        let root = noise.weight(base).sqrt();
+        (root, (root * (measured - base)).clamp(-WINSOR, WINSOR))
+    };
+    signal.iter().zip(base).map(whitened).unzip()
+}
+
 impl Gram {
     fn empty(pixels: usize, columns: &[usize], sets: usize) -> Self {
         let block = |&columns: &usize| Block {
@@ -121,10 +137,20 @@ impl Gram {
         noise: Noise,
         counts: &(dyn Fn(usize) -> bool + Sync),
     ) -> Self {
+        Self::visited(data, tangents, noise, counts, &|(), _| (), &|(), ()| ()).0
+    }
+
+    /// The same; `visit` sees every whitened frame besides.
+    pub fn visited<T: Default + Send>(
+        data: &Data,
+        tangents: &Tangents,
+        noise: Noise,
+        counts: &(dyn Fn(usize) -> bool + Sync),
+        visit: &(dyn Fn(T, &Whitened) -> T + Sync),
+        merge: &(dyn Fn(T, T) -> T + Sync),
+    ) -> (Self, T) {
         let fill = |_: usize, _: usize, _: &Frame| vec![Vec::new()];
-        let (gram, ()) =
-            Self::with_blocks(data, tangents, noise, counts, &[0], &fill, &|(), _| (), &|(), ()| ());
-        gram
+        Self::with_blocks(data, tangents, noise, counts, &[0], &fill, visit, merge)
     }
 
     /// The same for blocks of columns that each have the columns of `tangents` before their own, of which `fill` gives those that act in
@@ -159,7 +185,7 @@ impl Gram {
                     let frames = data.takes[take].frames;
                     for index in set * frames..(set + 1) * frames {
                         let frame = tangents.frame(take, index);
-                        let (roots, residual) = sums.whiten(data, take, index, &frame, noise);
+                        let (roots, residual) = whiten(data, take, index, &frame.base, noise);
                         let whitened = Whitened {
                             take,
                             set: number,
@@ -178,32 +204,6 @@ impl Gram {
             .unwrap_or_else(|| (Self::empty(pixels, &columns, count), T::default()))
     }
 
-    /// Roots of the weights, and the residual times them.
-    fn whiten(
-        &mut self,
-        data: &Data,
-        take: usize,
-        index: usize,
-        frame: &Frame,
-        noise: Noise,
-    ) -> (Vec<f64>, Vec<f64>) {
-        let pixels = data.pixels();
-        let signal = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
-        let (mut roots, mut residuals) = (vec![0.0; pixels], vec![0.0; pixels]);
-        for pixel in 0..pixels {
-            let measured = f64::from(signal[pixel]);
-            if measured.is_nan() {
-                continue;
-            }
-            let root = noise.weight(frame.base[pixel]).sqrt();
-            let residual = (root * (measured - frame.base[pixel])).clamp(-WINSOR, WINSOR);
-            (roots[pixel], residuals[pixel]) = (root, residual);
-            self.chi2 += residual * residual;
-            self.samples += 1;
-        }
-        (roots, residuals)
-    }
-
     fn add(&mut self, data: &Data, whitened: &Whitened, filled: &Filled, shared: usize) {
         let Whitened { frame, roots, residual, set, .. } = *whitened;
         let pixels = roots.len();
@@ -211,6 +211,8 @@ impl Gram {
         let mut position = vec![0.0; pixels];
         for pixel in (0..pixels).filter(|&pixel| roots[pixel] > 0.0) {
             let root = roots[pixel];
+            self.chi2 += residual[pixel] * residual[pixel];
+            self.samples += 1;
             // A background never moves: as long as the light is on, its constant light is ambient light.
             let constant = if data.tells_constant(pixel) { frame.own[2][pixel] } else { 0.0 };
             own[pixel] =
@@ -284,7 +286,9 @@ impl Gram {
                 own.copy_from_slice(values.as_slice());
             }
         }
-        let mut full = &block.full - block.mixed.transpose() * &solved;
+        let own = block.mixed.transpose() * &solved;
+        let settled = own[(size - 1, size - 1)];
+        let mut full = &block.full - own;
         let mut sets = Vec::new();
         let turned = solved.transpose();
         for ((sums, square), own) in block.position.iter().zip(&self.square).zip(&self.position_own) {
@@ -310,7 +314,7 @@ impl Gram {
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();
         let raw = DVector::from_fn(residual, |column, _| block.full[(column, column)]);
-        Projected { matrix, vector, raw, jitter_m2, chi2: full[(residual, residual)], solved }
+        Projected { matrix, vector, raw, jitter_m2, chi2: full[(residual, residual)], settled, solved }
     }
 }
 
@@ -328,10 +332,7 @@ fn inverse(own: &Matrix4<f64>) -> Matrix4<f64> {
 /// The variance of the encoder's reading that explains the sets' common position errors best, m²: `(sum, square)` a set.
 fn jitter(sets: &[(f64, f64)]) -> f64 {
     let evidence = |variance: f64| -> f64 {
-        let term = |&(sum, square): &(f64, f64)| {
-            0.5 * variance * sum * sum / (1.0 + variance * square) - 0.5 * (variance * square).ln_1p()
-        };
-        sets.iter().map(term).sum()
+        sets.iter().map(|&(sum, square)| of_variance(variance, sum, square)).sum()
     };
     // From a micrometre to half a millimetre: more is no encoder's noise, but something that must be named.
     let variances = (0..=60).map(|step| (1e-6 * 500f64.powf(f64::from(step) / 60.0)).powi(2));
@@ -366,6 +367,8 @@ pub struct Projected {
     pub jitter_m2: f64,
     /// Chi squared after the projection.
     pub chi2: f64,
+    /// Chi squared that the pixels' own numbers take away by a step.
+    pub settled: f64,
     /// Change of the pixels' own numbers a unit of each column, and, last, by the residual: (4 x pixels) x (columns + 1).
     solved: DMatrix<f64>,
 }

@@ -3,13 +3,15 @@
 //! Groups of four neighbouring sets are dealt to two folds; each fold is predicted by a model whose pixels and parameters are fitted to
 //! the other one.
 
-use super::columns::{Frame, Tangents};
+use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::fit::{Fit, improved};
-use super::gram::{Gram, Noise, Whitened};
+use super::gram::{Noise, whiten};
 use crate::spec::SCHEMES;
 use crate::units::phase_rad;
 use num_complex::Complex64;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// Agreement of a prediction with the recordings.
 #[derive(Debug, Clone, Copy, Default)]
@@ -44,21 +46,12 @@ const FOLDS: usize = 2;
 /// What a set shows: recording, chi squared, samples, squared difference (DN²), distance (m).
 type Seen = (usize, f64, usize, f64, f64);
 
-/// Sets that were seen, by number, and the phasors of the set whose frames come just now.
-#[derive(Debug, Default)]
-struct Sets {
-    seen: Vec<(usize, Seen)>,
-    now: (f64, usize, f64),
-    phasors: Vec<(Complex64, Complex64)>,
-}
-
 /// Predicts every set of `data` by `before` and by `after`, neither of which has seen it.
 pub fn held_out(data: &Data, before: &Fit, after: &Fit, noise: Noise) -> HeldOut {
     let predict = |fit: &Fit| -> Vec<Seen> {
-        let mut all: Vec<(usize, Seen)> =
-            (0..FOLDS).flat_map(|fold| predicted(data, fit, noise, fold)).collect();
-        all.sort_by_key(|(number, _)| *number);
-        all.into_iter().map(|(_, seen)| seen).collect()
+        let folds = (0..FOLDS).flat_map(|fold| predicted(data, fit, noise, fold));
+        // In the order of the sets.
+        folds.collect::<BTreeMap<usize, Seen>>().into_values().collect()
     };
     let old = predict(before);
     let new = if after.pieces.is_empty() { old.clone() } else { predict(after) };
@@ -66,10 +59,7 @@ pub fn held_out(data: &Data, before: &Fit, after: &Fit, noise: Noise) -> HeldOut
     let count = differences.len().max(1) as f64;
     let mean = differences.iter().sum::<f64>() / count;
     let scatter = (differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / count).sqrt();
-    let mut frames: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
-    frames.sort_unstable();
-    frames.dedup();
-    let by_frames = frames.into_iter().map(|frames| {
+    let by_frames = data.schemes().into_iter().map(|frames| {
         let of = |seen: &[Seen]| {
             let of: Vec<Seen> =
                 seen.iter().filter(|seen| data.takes[seen.0].frames == frames).copied().collect();
@@ -96,17 +86,41 @@ fn agreement(sets: &[Seen]) -> Agreement {
     }
 }
 
+/// The sets of a fold, by number, seen by a model that was fitted to the others.
 fn predicted(data: &Data, fit: &Fit, noise: Noise, fold: usize) -> Vec<(usize, Seen)> {
     let is_held = |set: usize| set / GROUP % FOLDS == fold;
-    let (pixels, pieces) = improved(data, &fit.pixels, fit.pieces.clone(), noise, &|set| !is_held(set));
+    let (pixels, pieces) = improved(data, fit, noise, &|set| !is_held(set));
     let (tangents, _) = Tangents::new(data, &pixels, &pieces, &[]);
-    let fill = |_: usize, _: usize, _: &Frame| vec![];
-    let visit = |sets: Sets, whitened: &Whitened| sets.with(data, whitened);
-    let merge = |mut a: Sets, b: Sets| {
-        a.seen.extend(b.seen);
-        a
-    };
-    Gram::with_blocks(data, &tangents, noise, &is_held, &[], &fill, &visit, &merge).1.seen
+    let sets = data.sets().into_par_iter().enumerate().filter(|(number, _)| is_held(*number));
+    sets.filter_map(|(number, (take, set))| Some((number, seen(data, &tangents, noise, take, set)?))).collect()
+}
+
+/// What a set shows; nothing where it was left out.
+fn seen(data: &Data, tangents: &Tangents, noise: Noise, number: usize, set: usize) -> Option<Seen> {
+    let take = &data.takes[number];
+    let (mut chi2, mut samples, mut square) = (0.0, 0, 0.0);
+    let mut phasors = vec![(Complex64::default(), Complex64::default()); data.pixels()];
+    for frame in 0..take.frames {
+        let index = set * take.frames + frame;
+        let base = tangents.base(number, index);
+        let (roots, residuals) = whiten(data, number, index, &base, noise);
+        let weight = weight(take, frame);
+        for pixel in (0..data.pixels()).filter(|&pixel| roots[pixel] > 0.0) {
+            let difference_dn = residuals[pixel] / roots[pixel];
+            chi2 += residuals[pixel] * residuals[pixel];
+            samples += 1;
+            square += difference_dn * difference_dn;
+            if data.target[pixel] {
+                phasors[pixel].0 += weight * (base[pixel] + difference_dn);
+                phasors[pixel].1 += weight * base[pixel];
+            }
+        }
+    }
+    // The pixels' mean, as the paper averages: each with the phasor's length that the model gives it.
+    let sum: Complex64 = phasors.iter().map(|(measured, model)| measured * model.conj()).sum();
+    let moment = &take.moments[set * take.frames];
+    let distance_m = if moment.lit { sum.arg() / phase_rad(1.0, moment.frequency_hz) } else { f64::NAN };
+    (samples > 0).then_some((number, chi2, samples, square, distance_m))
 }
 
 /// What a frame weighs in its set's phasor: the scheme's coefficients, or those of a plain DFT.
@@ -122,40 +136,5 @@ fn weight(take: &Take, frame: usize) -> Complex64 {
             Complex64::new(scheme.in_phase[frame] as f64, factor * scheme.quadrature[frame] as f64)
         }
         None => Complex64::from_polar(1.0, step_rad(frame)),
-    }
-}
-
-impl Sets {
-    fn with(mut self, data: &Data, whitened: &Whitened) -> Self {
-        let take = &data.takes[whitened.take];
-        let moment = &take.moments[whitened.index];
-        let weight = weight(take, moment.frame);
-        self.phasors.resize(data.pixels(), Default::default());
-        for pixel in (0..data.pixels()).filter(|&pixel| whitened.roots[pixel] > 0.0) {
-            let (root, residual) = (whitened.roots[pixel], whitened.residual[pixel]);
-            let difference_dn = residual / root;
-            self.now.0 += residual * residual;
-            self.now.1 += 1;
-            self.now.2 += difference_dn * difference_dn;
-            if data.target[pixel] {
-                let base = whitened.frame.base[pixel];
-                self.phasors[pixel].0 += weight * (base + difference_dn);
-                self.phasors[pixel].1 += weight * base;
-            }
-        }
-        if moment.frame + 1 == take.frames {
-            // The pixels' mean, as the paper averages: each with the phasor's length that the model gives it.
-            let sum: Complex64 = self.phasors.iter().map(|(measured, model)| measured * model.conj()).sum();
-            let distance_m =
-                if moment.lit { sum.arg() / phase_rad(1.0, moment.frequency_hz) } else { f64::NAN };
-            // A set that was left out has no samples, and is not predicted.
-            if self.now.1 > 0 {
-                let (chi2, samples, square) = self.now;
-                self.seen.push((whitened.set, (whitened.take, chi2, samples, square, distance_m)));
-            }
-            self.now = (0.0, 0, 0.0);
-            self.phasors.clear();
-        }
-        self
     }
 }

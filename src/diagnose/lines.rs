@@ -6,17 +6,14 @@ use crate::physics::cos_sin;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// In which way a frame is off: ambient light, signal, phase.
-pub const LINE_MODES: [&str; 3] = ["ambient light", "gain", "phase"];
-
 /// Score and information.
 pub type Sum = (f64, f64);
 
 /// What frames and sets say of errors that they share.
 #[derive(Debug, Clone, Default)]
 pub struct Series {
-    /// Recording, start (s), and the sums of each mode.
-    frames: Vec<(usize, f64, [Sum; LINE_MODES.len()])>,
+    /// Recording, start (s), and what it says of ambient light.
+    frames: Vec<(usize, f64, Sum)>,
     /// The sets, in the order in which they were seen.
     pub sets: Vec<SetSeen>,
     /// From a frame to the next, s.
@@ -65,21 +62,18 @@ impl Series {
     pub fn with(mut self, data: &Data, whitened: &Whitened) -> Self {
         let moment = &data.takes[whitened.take].moments[whitened.index];
         let frame = whitened.frame;
-        let mut sums = [(0.0, 0.0); LINE_MODES.len()];
-        let mut position = (0.0, 0.0);
-        for (pixel, (&root, &residual)) in whitened.roots.iter().zip(whitened.residual).enumerate() {
-            let shapes = [frame.ambient[pixel], frame.base[pixel], frame.own[1][pixel]];
-            for (sum, shape) in sums.iter_mut().zip(shapes) {
+        let sum = |shape: &[f64]| {
+            let mut sum = (0.0, 0.0);
+            for ((root, residual), shape) in whitened.roots.iter().zip(whitened.residual).zip(shape) {
                 let value = root * shape;
                 sum.0 += value * residual;
                 sum.1 += value * value;
             }
-            let value = root * frame.position[pixel];
-            position.0 += value * residual;
-            position.1 += value * value;
-        }
+            sum
+        };
+        let position = sum(&frame.position);
         self.frame_period_s = moment.frame_period_s;
-        self.frames.push((whitened.take, moment.time_s, sums));
+        self.frames.push((whitened.take, moment.time_s, sum(&frame.ambient)));
         if moment.frame == 0 {
             self.sets.push(SetSeen {
                 number: whitened.set,
@@ -116,15 +110,15 @@ impl Series {
         (0..takes).max_by(|&a, &b| excess[a].total_cmp(&excess[b])).unwrap_or(0)
     }
 
-    /// The strongest line in time of a mode, with a phase of its own in every recording, Hz.
-    pub fn in_time(&self, mode: usize, ends: (f64, f64)) -> Option<Line> {
+    /// The strongest line of the ambient light in time, with a phase of its own in every recording, Hz.
+    pub fn in_time(&self, ends: (f64, f64)) -> Option<Line> {
         // A line that frames see at rest is a drift.
         let period_s = self.frame_period_s;
         let takes = self.frames.iter().map(|frame| frame.0 + 1).max()?;
         let groups: Vec<Vec<(f64, Sum)>> = (0..takes)
             .map(|take| {
                 let of_take = self.frames.iter().filter(|frame| frame.0 == take);
-                of_take.map(|&(_, time_s, sums)| (time_s, sums[mode])).collect()
+                of_take.map(|&(_, time_s, sum)| (time_s, sum)).collect()
             })
             .collect();
         strongest(&groups, ends, period_s)

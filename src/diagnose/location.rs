@@ -7,7 +7,7 @@ use super::data::Data;
 use super::evidence::{Block, Evidence};
 use super::fit::Fit;
 use super::gram::{Gram, Noise, Projected, Whitened};
-use super::profiles::{Bounds, Profile, Profiles};
+use super::profiles::{Profile, Profiles};
 use super::ranges::Ranges;
 
 /// A coordinate that explains something.
@@ -48,9 +48,8 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let view = View { moment, take, frame, pixels: &base.pixels, ranges: &ranges };
         COORDINATES.iter().map(|coordinate| (coordinate.fill)(&view)).collect()
     };
-    let bounds = Bounds::of(data);
     let visit = |(clusters, profiles): (Clusters, Profiles), whitened: &Whitened| {
-        (clusters.with(data, whitened), profiles.with(data, &bounds, base, whitened))
+        (clusters.with(data, whitened), profiles.with(data, &ranges, base, whitened))
     };
     let merge = |a: (Clusters, Profiles), b: (Clusters, Profiles)| (a.0.and(b.0), a.1.and(b.1));
     let (gram, (clusters, profiles)) =
@@ -71,7 +70,7 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         columns,
         clusters: clusters.ranked(),
         take: base.series.worst_take(),
-        curves: profiles.curves(&bounds),
+        curves: profiles.curves(&ranges),
         map: profiles.map(),
     }
 }

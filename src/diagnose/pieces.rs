@@ -66,7 +66,7 @@ const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0
 const APPROXIMATE: f64 = 0.04;
 const LOOSE: f64 = 0.08;
 const EXACT: f64 = 0.01;
-const TOLERANCES: [(&str, f64); 18] = [
+const TOLERANCES: [(&str, f64); 17] = [
     ("multipath_interference", APPROXIMATE),
     ("ambient_drift", APPROXIMATE),
     ("ambient_flicker", APPROXIMATE),
@@ -84,7 +84,6 @@ const TOLERANCES: [(&str, f64); 18] = [
     ("charge_crosstalk", LOOSE),
     ("intensity_related_phase", LOOSE),
     ("lateral_motion", LOOSE),
-    ("fixed_point", LOOSE),
 ];
 
 /// Share of what the effect called `name` explains that its own form may leave.
@@ -95,7 +94,7 @@ pub fn tolerance(name: &str) -> f64 {
 /// Effects whose shape is the period of a line: where it is, and among how many it was looked for.
 type LineShape = fn(&Series) -> Option<(f64, f64)>;
 const LINES: [(&str, LineShape); 2] = [
-    ("ambient_flicker", |series| series.in_time(0, FLICKER_HZ).map(|line| (line.frequency, line.looked))),
+    ("ambient_flicker", |series| series.in_time(FLICKER_HZ).map(|line| (line.frequency, line.looked))),
     ("encoder_cyclic", |series| series.in_position().map(|line| (line.frequency.recip(), line.looked))),
 ];
 
@@ -156,13 +155,10 @@ fn pieces(effect: &'static Effect, values: &[f64], by: Grouping, data: &Data) ->
         Grouping::All => vec![all],
         Grouping::Take => all.iter().map(|&take| vec![take]).collect(),
         Grouping::Scheme => {
-            let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
-            schemes.sort_unstable();
-            schemes.dedup();
             let of = |frames: usize| {
                 all.iter().copied().filter(|&take| data.takes[take].frames == frames).collect()
             };
-            schemes.into_iter().map(of).collect()
+            data.schemes().into_iter().map(of).collect()
         }
     };
     let strengths = effect.parameters.iter().enumerate().filter(|(_, parameter)| !parameter.is_shape());

@@ -3,6 +3,7 @@
 use super::data::Data;
 use super::fit::Fit;
 use super::gram::Whitened;
+use super::ranges::Ranges;
 use crate::units::phase_rad;
 use std::f64::consts::TAU;
 
@@ -24,44 +25,15 @@ struct Axis {
     /// The place of a sample, 0 … 1.
     place: fn(&Sample) -> f64,
     /// The coordinate at a place.
-    at: fn(&Bounds, f64) -> f64,
+    at: fn(&Ranges, f64) -> f64,
 }
 
 struct Sample<'a> {
     data: &'a Data,
-    bounds: &'a Bounds,
+    ranges: &'a Ranges,
     fit: &'a Fit,
     whitened: &'a Whitened<'a>,
     pixel: usize,
-}
-
-/// What the coordinates range over.
-#[derive(Debug, Clone, Copy)]
-pub struct Bounds {
-    position_m: (f64, f64),
-    velocity_m_s: f64,
-    time_s: f64,
-    full_scale_dn: f64,
-    size: (usize, usize),
-}
-
-impl Bounds {
-    /// Of `data`.
-    pub fn of(data: &Data) -> Self {
-        let moments = || data.takes.iter().flat_map(|take| &take.moments);
-        let most = |value: fn(&crate::physics::Moment) -> f64| moments().map(value).fold(0.0, f64::max);
-        let geometry = data.geometry();
-        Self {
-            position_m: (
-                moments().map(|m| m.position_m).fold(f64::INFINITY, f64::min),
-                most(|m| m.position_m),
-            ),
-            velocity_m_s: most(|m| m.velocity_m_s.abs()).max(1e-9),
-            time_s: most(|m| m.time_s).max(1e-9),
-            full_scale_dn: f64::from((1_u32 << data.camera.adc_bits) - 1),
-            size: (geometry.height, geometry.width),
-        }
-    }
 }
 
 const BINS: usize = 36;
@@ -72,7 +44,7 @@ const AXES: [Axis; 8] = [
         bins: BINS,
         place: |s| {
             let moment = &s.data.takes[s.whitened.take].moments[s.whitened.index];
-            let range_m = moment.position_m * s.fit.pixels.obliquity[s.pixel];
+            let range_m = moment.commanded_m() * s.fit.pixels.obliquity[s.pixel];
             let phase = phase_rad(range_m, moment.frequency_hz) + s.fit.pixels.phase_rad[s.pixel];
             ((moment.step_rad + moment.offset_rad - phase) / TAU).rem_euclid(1.0)
         },
@@ -82,16 +54,16 @@ const AXES: [Axis; 8] = [
         name: "position, m",
         bins: BINS,
         place: |s| {
-            (moment(s).position_m - s.bounds.position_m.0)
-                / (s.bounds.position_m.1 - s.bounds.position_m.0).max(1e-9)
+            (moment(s).commanded_m() - s.ranges.position_m.0)
+                / (s.ranges.position_m.1 - s.ranges.position_m.0)
         },
-        at: |b, place| b.position_m.0 + place * (b.position_m.1 - b.position_m.0),
+        at: |r, place| r.position_m.0 + place * (r.position_m.1 - r.position_m.0),
     },
     Axis {
         name: "velocity, m/s",
         bins: 17,
-        place: |s| 0.5 + 0.5 * moment(s).velocity_m_s / s.bounds.velocity_m_s,
-        at: |b, place| (2.0 * place - 1.0) * b.velocity_m_s,
+        place: |s| 0.5 + 0.5 * moment(s).velocity_m_s / s.ranges.speed_m_s.max(1e-9),
+        at: |r, place| (2.0 * place - 1.0) * r.speed_m_s,
     },
     Axis {
         name: "frame of a set",
@@ -102,28 +74,33 @@ const AXES: [Axis; 8] = [
     Axis {
         name: "time, s",
         bins: BINS,
-        place: |s| moment(s).time_s / s.bounds.time_s,
-        at: |b, place| place * b.time_s,
+        place: |s| moment(s).time_s / longest_s(s.ranges),
+        at: |r, place| place * longest_s(r),
     },
     Axis {
         name: "row",
         bins: 64,
-        place: |s| ((s.pixel / s.bounds.size.1) as f64 + 0.5) / s.bounds.size.0 as f64,
-        at: |b, place| place * b.size.0 as f64,
+        place: |s| ((s.pixel / s.ranges.geometry.width) as f64 + 0.5) / s.ranges.geometry.height as f64,
+        at: |r, place| place * r.geometry.height as f64,
     },
     Axis {
         name: "column",
         bins: 64,
-        place: |s| ((s.pixel % s.bounds.size.1) as f64 + 0.5) / s.bounds.size.1 as f64,
-        at: |b, place| place * b.size.1 as f64,
+        place: |s| ((s.pixel % s.ranges.geometry.width) as f64 + 0.5) / s.ranges.geometry.width as f64,
+        at: |r, place| place * r.geometry.width as f64,
     },
     Axis {
         name: "signal, DN",
         bins: BINS,
-        place: |s| s.whitened.frame.base[s.pixel] / s.bounds.full_scale_dn,
-        at: |b, place| place * b.full_scale_dn,
+        place: |s| s.whitened.frame.base[s.pixel] / s.ranges.full_scale_dn,
+        at: |r, place| place * r.full_scale_dn,
     },
 ];
+
+/// Duration of the longest recording, s.
+fn longest_s(ranges: &Ranges) -> f64 {
+    ranges.duration_s.iter().copied().fold(1e-9, f64::max)
+}
 
 fn moment<'a>(sample: &Sample<'a>) -> &'a crate::physics::Moment {
     &sample.data.takes[sample.whitened.take].moments[sample.whitened.index]
@@ -149,7 +126,7 @@ pub struct Profile {
 
 impl Profiles {
     /// With one more frame.
-    pub fn with(mut self, data: &Data, bounds: &Bounds, fit: &Fit, whitened: &Whitened) -> Self {
+    pub fn with(mut self, data: &Data, ranges: &Ranges, fit: &Fit, whitened: &Whitened) -> Self {
         self.sums.resize_with(AXES.len(), Vec::new);
         for (sums, axis) in self.sums.iter_mut().zip(&AXES) {
             sums.resize(axis.bins, (0.0, 0.0));
@@ -164,7 +141,7 @@ impl Profiles {
             if !data.target[pixel] {
                 continue;
             }
-            let sample = Sample { data, bounds, fit, whitened, pixel };
+            let sample = Sample { data, ranges, fit, whitened, pixel };
             for (sums, axis) in self.sums.iter_mut().zip(&AXES) {
                 let bin = ((axis.place)(&sample) * axis.bins as f64) as usize;
                 let sum = &mut sums[bin.min(axis.bins - 1)];
@@ -192,10 +169,10 @@ impl Profiles {
     }
 
     /// The curves.
-    pub fn curves(&self, bounds: &Bounds) -> Vec<Profile> {
+    pub fn curves(&self, ranges: &Ranges) -> Vec<Profile> {
         let curve = |(axis, sums): (&Axis, &Vec<(f64, f64)>)| {
             let point = |(bin, &(score, weight)): (usize, &(f64, f64))| Point {
-                at: (axis.at)(bounds, (bin as f64 + 0.5) / axis.bins as f64),
+                at: (axis.at)(ranges, (bin as f64 + 0.5) / axis.bins as f64),
                 residual_dn: score / weight,
                 sigma_dn: weight.sqrt().recip(),
             };

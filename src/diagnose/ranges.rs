@@ -34,16 +34,14 @@ impl Ranges {
                 values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
             if low < high { (low, high) } else { (low - 0.5, low + 0.5) }
         };
-        let position_m = ends(&mut moments().map(|moment| moment.position_m + way_m(moment)));
+        let position_m = ends(&mut moments().map(Moment::commanded_m));
         let light = |pixel: usize| {
             let range_m = pixels.obliquity[pixel];
             (pixels.amplitude_1m_dn[pixel].max(1e-3) / (range_m * range_m)).ln()
         };
         let targets = (0..pixels.count()).filter(|&pixel| pixels.target[pixel]);
         let at_1m = ends(&mut targets.map(light));
-        let mut schemes: Vec<usize> = data.takes.iter().map(|take| take.frames).collect();
-        schemes.sort_unstable();
-        schemes.dedup();
+        let schemes = data.schemes();
         let first = |frames: usize| schemes.iter().take_while(|&&other| other < frames).sum();
         Self {
             geometry: data.geometry(),
@@ -59,9 +57,4 @@ impl Ranges {
             full_scale_dn: pixels.full_scale_dn,
         }
     }
-}
-
-/// The target's way since the set's start, m.
-pub fn way_m(moment: &Moment) -> f64 {
-    moment.velocity_m_s * moment.in_set_s
 }

@@ -16,13 +16,10 @@ const MUCH_BETTER: (f64, f64) = (100.0, 0.02);
 pub fn with_mask(data: &Data, noise: Noise) -> (Data, usize) {
     let count = data.pixels();
     let mut normal = vec![[Normal::new(), Normal::new()]; count];
-    let obliquity: Vec<f64> = (0..count)
-        .map(|pixel| data.geometry().row_column(pixel))
-        .map(|(row, column)| data.camera.obliquity(row, column))
-        .collect();
+    let obliquity = data.camera.obliquities();
     for take in &data.takes {
         for (index, moment) in take.moments.iter().enumerate().filter(|(_, moment)| moment.lit) {
-            let position_m = moment.position_m + moment.velocity_m_s * moment.in_set_s;
+            let position_m = moment.commanded_m();
             let angle = moment.step_rad + moment.offset_rad;
             let signals = &take.signal_dn[index * count..(index + 1) * count];
             for (pixel, &signal) in signals.iter().enumerate().filter(|(_, signal)| signal.is_finite()) {

@@ -68,28 +68,8 @@ impl Correlation {
 
     /// Adds to `sum_dn`, a pixel at a time, amplitude · waveform(angle − phase).
     pub fn add(&self, amplitude_dn: &[f64], phase_rad: &[f64], angle_rad: f64, sum_dn: &mut [f64]) {
-        // Pixels in blocks, harmonic after harmonic: so the compiler does several pixels at once.
-        const BLOCK: usize = 64;
         let parts = self.parts();
-        let blocks = sum_dn.chunks_mut(BLOCK).zip(amplitude_dn.chunks(BLOCK)).zip(phase_rad.chunks(BLOCK));
-        for ((sum, amplitude), phase) in blocks {
-            let (mut first, mut turned) = ([(0.0, 0.0); BLOCK], [(1.0, 0.0); BLOCK]);
-            let mut waveform = [0.0; BLOCK];
-            for (first, phase) in first.iter_mut().zip(phase) {
-                *first = cos_sin(angle_rad - phase);
-            }
-            for (in_phase, quadrature) in &parts {
-                for ((waveform, turned), (cosine, sine)) in waveform.iter_mut().zip(&mut turned).zip(&first) {
-                    // cos(m a) and sin(m a) from those of (m − 1) a.
-                    let (c, s) = *turned;
-                    *turned = (c * cosine - s * sine, s * cosine + c * sine);
-                    *waveform += in_phase * turned.0 + quadrature * turned.1;
-                }
-            }
-            for ((sum, amplitude), waveform) in sum.iter_mut().zip(amplitude).zip(&waveform) {
-                *sum += amplitude * waveform;
-            }
-        }
+        pulp::Arch::new().dispatch(Sum { parts: &parts, amplitude_dn, phase_rad, angle_rad, sum_dn });
     }
 
     /// Σ a_m cos(m · angle + p_m): the waveform at `angle_rad`, relative to the fundamental's amplitude.
@@ -97,6 +77,47 @@ impl Correlation {
         // The standard library's cosine is the platform's, and differs in its last bits from one to the next.
         let term = |h: &Harmonic| h.amplitude * libm::cos(f64::from(h.number) * angle_rad + h.phase_rad);
         self.harmonics.iter().map(term).sum()
+    }
+}
+
+/// Pixels that are done together, harmonic after harmonic: so the compiler does several at once.
+const BLOCK: usize = 64;
+
+/// What [`Correlation::add`] does, with the widest registers that the machine has; without fused operations the bits are the same on all.
+struct Sum<'a> {
+    parts: &'a [(f64, f64)],
+    amplitude_dn: &'a [f64],
+    phase_rad: &'a [f64],
+    angle_rad: f64,
+    sum_dn: &'a mut [f64],
+}
+
+impl pulp::NullaryFnOnce for Sum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { parts, amplitude_dn, phase_rad, angle_rad, sum_dn } = self;
+        let blocks = sum_dn.chunks_mut(BLOCK).zip(amplitude_dn.chunks(BLOCK)).zip(phase_rad.chunks(BLOCK));
+        for ((sum_dn, amplitude_dn), phase_rad) in blocks {
+            let (mut cosine, mut sine) = ([1.0; BLOCK], [0.0; BLOCK]);
+            for ((cosine, sine), phase_rad) in cosine.iter_mut().zip(&mut sine).zip(phase_rad) {
+                (*cosine, *sine) = cos_sin(angle_rad - phase_rad);
+            }
+            let (mut turned, mut waveform) = (([1.0; BLOCK], [0.0; BLOCK]), [0.0; BLOCK]);
+            for (in_phase, quadrature) in parts {
+                for n in 0..BLOCK {
+                    // cos(m a) and sin(m a) from those of (m − 1) a.
+                    let (c, s) = (turned.0[n], turned.1[n]);
+                    turned.0[n] = c * cosine[n] - s * sine[n];
+                    turned.1[n] = s * cosine[n] + c * sine[n];
+                    waveform[n] += in_phase * turned.0[n] + quadrature * turned.1[n];
+                }
+            }
+            for ((sum, amplitude), waveform) in sum_dn.iter_mut().zip(amplitude_dn).zip(&waveform) {
+                *sum += amplitude * waveform;
+            }
+        }
     }
 }
 

@@ -37,6 +37,11 @@ pub struct Moment {
 }
 
 impl Moment {
+    /// Where the target is at the frame's start by the encoder's reading and the commanded velocity, m.
+    pub fn commanded_m(&self) -> f64 {
+        self.position_m + self.velocity_m_s * self.in_set_s
+    }
+
     /// The frame before this one, the first of its set, by a camera that runs on evenly: `second` is the set's second frame.
     #[must_use]
     pub fn preceding(self, second: Option<Self>) -> Self {

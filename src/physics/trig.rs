@@ -33,7 +33,7 @@ const COSINE: [f64; 6] = [
 ];
 
 /// Cosine and sine of `angle_rad`, |angle| up to a million: within 2e-16 for angles of a few turns.
-#[inline]
+#[inline(always)]
 pub fn cos_sin(angle_rad: f64) -> (f64, f64) {
     let shifted = angle_rad * TWO_OVER_PI + ROUND;
     let quarters = shifted - ROUND;

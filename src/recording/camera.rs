@@ -112,6 +112,17 @@ impl Camera {
         (1.0 + x * x + y * y).sqrt()
     }
 
+    /// That of every pixel, row by row.
+    pub fn obliquities(&self) -> Vec<f64> {
+        let places = (0..self.geometry.pixels()).map(|pixel| self.geometry.row_column(pixel));
+        places.map(|(row, column)| self.obliquity(row, column)).collect()
+    }
+
+    /// The converter's greatest code.
+    pub fn full_scale(&self) -> u32 {
+        (1 << self.adc_bits) - 1
+    }
+
     /// The text of a file that reads as this camera.
     pub fn to_toml(&self) -> String {
         // Files of before had no effects, and stay as they were.
