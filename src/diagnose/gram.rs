@@ -2,6 +2,7 @@
 
 use super::columns::{Frame, OWN, Tangents};
 use super::coordinates::Acting;
+use super::block::{Block, Rows};
 use super::data::Data;
 use super::evidence::of_variance;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
@@ -22,17 +23,6 @@ pub struct Gram {
     pub chi2: f64,
     /// Samples that count.
     pub samples: usize,
-}
-
-/// Columns that are solved together, and, last, the residual.
-#[derive(Debug, Clone)]
-struct Block {
-    /// G' W G.
-    full: DMatrix<f64>,
-    /// The pixels' own numbers against columns and residual: (4 x pixels) x (columns + 1).
-    mixed: DMatrix<f64>,
-    /// A set's position against columns and residual.
-    position: Vec<DVector<f64>>,
 }
 
 /// What blocks have in a frame: columns by their numbers, where they act.
@@ -73,6 +63,8 @@ impl Noise {
     }
 }
 
+/// Frames of a set that are summed together: each pass over the sums takes as long as memory does.
+const BATCH: usize = 8;
 /// Residuals beyond so many standard deviations count as that many.
 const WINSOR: f64 = 4.0;
 
@@ -93,16 +85,11 @@ pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise
 
 impl Gram {
     fn empty(pixels: usize, columns: &[usize], sets: usize) -> Self {
-        let block = |&columns: &usize| Block {
-            full: DMatrix::zeros(columns + 1, columns + 1),
-            mixed: DMatrix::zeros(OWN * pixels, columns + 1),
-            position: vec![DVector::zeros(0); sets],
-        };
         Self {
             own: vec![Matrix4::zeros(); pixels],
             square: vec![0.0; sets],
             position_own: vec![Vec::new(); sets],
-            blocks: columns.iter().map(block).collect(),
+            blocks: columns.iter().map(|&columns| Block::empty(pixels, columns, sets)).collect(),
             chi2: 0.0,
             samples: 0,
         }
@@ -116,15 +103,7 @@ impl Gram {
                 *a = b;
             }
         }
-        for (block, other) in self.blocks.iter_mut().zip(other.blocks) {
-            block.full += other.full;
-            block.mixed += other.mixed;
-            for (a, b) in block.position.iter_mut().zip(other.position) {
-                if a.is_empty() {
-                    *a = b;
-                }
-            }
-        }
+        self.blocks.iter_mut().zip(other.blocks).for_each(|(block, other)| block.join(other));
         self.chi2 += other.chi2;
         self.samples += other.samples;
         self
@@ -183,19 +162,20 @@ impl Gram {
                         block.position[number] = DVector::zeros(columns + 1);
                     }
                     let frames = data.takes[take].frames;
-                    for index in set * frames..(set + 1) * frames {
-                        let frame = tangents.frame(take, index);
-                        let (roots, residual) = whiten(data, take, index, &frame.base, noise);
-                        let whitened = Whitened {
-                            take,
-                            set: number,
-                            index,
-                            frame: &frame,
-                            roots: &roots,
-                            residual: &residual,
-                        };
-                        sums.add(data, &whitened, &fill(take, index, &frame), tangents.count());
-                        visited = visit(visited, &whitened);
+                    let indices: Vec<usize> = (set * frames..(set + 1) * frames).collect();
+                    for batch in indices.chunks(BATCH) {
+                        let mut rows = Rows::default();
+                        for &index in batch {
+                            let frame = tangents.frame(take, index);
+                            let (roots, residual) = whiten(data, take, index, &frame.base, noise);
+                            let (roots, residual) = (&roots[..], &residual[..]);
+                            let whitened = Whitened { take, set: number, index, frame: &frame, roots, residual };
+                            visited = visit(visited, &whitened);
+                            rows.push(data, &whitened);
+                            let filled = fill(take, index, &frame);
+                            rows.columns.push((frame.columns, filled));
+                        }
+                        sums.add(number, &rows, tangents.count());
                     }
                 }
                 (sums, visited)
@@ -204,63 +184,21 @@ impl Gram {
             .unwrap_or_else(|| (Self::empty(pixels, &columns, count), T::default()))
     }
 
-    fn add(&mut self, data: &Data, whitened: &Whitened, filled: &Filled, shared: usize) {
-        let Whitened { frame, roots, residual, set, .. } = *whitened;
-        let pixels = roots.len();
-        let mut own = vec![Vector4::zeros(); pixels];
-        let mut position = vec![0.0; pixels];
-        for pixel in (0..pixels).filter(|&pixel| roots[pixel] > 0.0) {
-            let root = roots[pixel];
-            self.chi2 += residual[pixel] * residual[pixel];
-            self.samples += 1;
-            // A background never moves: as long as the light is on, its constant light is ambient light.
-            let constant = if data.tells_constant(pixel) { frame.own[2][pixel] } else { 0.0 };
-            own[pixel] =
-                root * Vector4::new(frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]);
-            self.own[pixel] += own[pixel] * own[pixel].transpose();
-            position[pixel] = root * frame.position[pixel];
-            if position[pixel] != 0.0 {
+    fn add(&mut self, set: usize, rows: &Rows, shared: usize) {
+        let pixels = self.own.len();
+        for (row, (own, &position)) in rows.own.iter().zip(&rows.position).enumerate() {
+            let (pixel, vector) = (row % pixels, Vector4::from(*own));
+            self.own[pixel] += vector * vector.transpose();
+            if position != 0.0 {
                 let sums = &mut self.position_own[set][OWN * pixel..];
-                sums.iter_mut()
-                    .zip(own[pixel].iter())
-                    .for_each(|(sum, own)| *sum += (own * position[pixel]) as f32);
-                self.square[set] += position[pixel] * position[pixel];
+                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += (own * position) as f32);
+                self.square[set] += position * position;
             }
         }
-        let position = DVector::from_vec(position);
-        for (block, filled) in self.blocks.iter_mut().zip(filled) {
-            let last = block.full.nrows() - 1;
-            let mut active: Vec<(usize, &[f64])> = Vec::new();
-            active.extend(frame.columns.iter().enumerate().map(|(n, values)| (n, &values[..])));
-            active.extend(filled.iter().map(|(n, values)| (shared + n, &values[..])));
-            active.retain(|(_, values)| !values.is_empty());
-            // Rows of one frame, times the root of the weight.
-            let mut rows = DMatrix::<f64>::zeros(pixels, active.len() + 1);
-            for (place, (_, values)) in active.iter().enumerate() {
-                rows.column_mut(place)
-                    .iter_mut()
-                    .zip(roots)
-                    .zip(*values)
-                    .for_each(|((row, root), value)| *row = root * value);
-            }
-            rows.column_mut(active.len()).copy_from_slice(residual);
-            let numbers: Vec<usize> = active.iter().map(|(number, _)| *number).chain([last]).collect();
-            let turned = rows.transpose();
-            let product = &turned * &rows;
-            let along = turned * &position;
-            for (a, &row) in numbers.iter().enumerate() {
-                for (b, &column) in numbers.iter().enumerate() {
-                    block.full[(row, column)] += product[(a, b)];
-                }
-                block.position[set][row] += along[a];
-            }
-            for (a, &column) in numbers.iter().enumerate() {
-                let (values, mut sums) = (rows.column(a), block.mixed.column_mut(column));
-                let sums = sums.as_mut_slice().chunks_exact_mut(OWN);
-                for ((sum, own), value) in sums.zip(&own).zip(values.iter()) {
-                    sum.iter_mut().zip(own.iter()).for_each(|(sum, own)| *sum += own * value);
-                }
-            }
+        self.chi2 += rows.residual.iter().map(|residual| residual * residual).sum::<f64>();
+        self.samples += rows.roots.iter().filter(|root| **root > 0.0).count();
+        for (number, block) in self.blocks.iter_mut().enumerate() {
+            block.add(set, rows, &rows.active(number, shared));
         }
     }
 

@@ -1,5 +1,6 @@
 //! Diagnosis: where recordings and simulation disagree, and which physics was left out.
 
+mod block;
 mod camera;
 mod clusters;
 mod columns;
