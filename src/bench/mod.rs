@@ -13,7 +13,7 @@ mod plan;
 mod simulation;
 
 pub use atlas::{Atlas, Line, Residuals, phasors};
-pub use camera::{FREQUENCY_HZ, chain, practice_camera, sensor};
+pub use camera::{chain, practice_camera, sensor};
 pub use course::{Course, moments};
 pub use injection::{camera_effects, included_without, injection};
 pub use plan::Plan;

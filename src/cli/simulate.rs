@@ -3,11 +3,11 @@
 use super::print::{counted, say};
 use super::progress;
 use crate::bench::{
-    Course, FREQUENCY_HZ, Plan, Simulation, camera_effects, chain, included_without, injection,
-    practice_camera, sensor, simulate,
+    Course, Plan, Simulation, camera_effects, chain, included_without, injection, practice_camera, sensor,
+    simulate,
 };
 use crate::frames::Geometry;
-use crate::physics::{Active, Chain, Correlation, EFFECTS, Pulse, Sensor, Stage};
+use crate::physics::{Active, Chain, Correlation, EFFECTS, FREQUENCY_HZ, Pulse, Sensor, Stage};
 use crate::problem::{Problem, Result};
 use crate::recording::{Camera, Recording, write_camera, write_recording};
 use clap::Args;

@@ -7,8 +7,6 @@ use crate::units::{unambiguous_range_m, wrap_rad};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
-const FREQUENCY_HZ: f64 = 30e6;
-
 /// Four frames or WDFT at 30 MHz and 25 ms a frame, one set.
 fn acquisition(name: &str) -> Acquisition {
     Acquisition {
