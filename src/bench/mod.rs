@@ -11,6 +11,7 @@ mod course;
 mod injection;
 mod plan;
 mod simulation;
+mod word_length;
 
 pub use atlas::{Atlas, Line, Residuals, phasors};
 pub use camera::{chain, practice_camera, sensor};
@@ -18,3 +19,4 @@ pub use course::{Course, moments};
 pub use injection::{camera_effects, included_without, injection};
 pub use plan::Plan;
 pub use simulation::{Simulation, simulate};
+pub use word_length::{injection_for, specification_of};
