@@ -105,7 +105,6 @@ pub fn table(methods: &[Method; 2]) -> Table {
                  of {:.0} % (assumed). Edges are worse.",
                 100.0 * GRAIN
             ),
-            "Missing: optical flow, and the edges of a 2D camera, against lateral motion. One pixel has none.".to_owned(),
         ],
     }
 }
