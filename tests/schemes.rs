@@ -190,7 +190,7 @@ fn roots_of_published_algorithms_are_their_authors() {
 /// Roots as the paper lists them.
 #[test]
 fn roots_are_the_papers() {
-    let of = |name: &str| roots(&scheme(name).unwrap(), 5);
+    let of = |name: &str| roots(scheme(name).unwrap(), 5);
     //                             m = -5 -4 -3 -2 -1  0  1  2  3  4  5
     assert_eq!(of("four_frame"), [0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1]);
     assert_eq!(of("wdft"), [2, 0, 2, 2, 0, 2, 2, 0, 2, 2, 0]);
