@@ -52,7 +52,7 @@ pub fn range_errors(recording: &Recording, range_m: &[f64], valid: &[bool]) -> R
     let mut error_m = vec![None; sets * pixels];
     for (set, row) in recording.sets.iter().enumerate() {
         let Some(position_m) = row.position_m else { continue };
-        let offset_m = row.phase_offset_rad / TAU * unambiguous_m;
+        let offset_m = crate::units::range_m(row.phase_offset_rad, recording.frequency_hz);
         for pixel in (0..pixels).filter(|&pixel| recording.sees_target(pixel)) {
             let at = set * pixels + pixel;
             // A measurement that is not a number is none.

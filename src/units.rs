@@ -19,6 +19,11 @@ pub fn phase_rad(range_m: f64, frequency_hz: f64) -> f64 {
     TAU * range_m / unambiguous_range_m(frequency_hz)
 }
 
+/// The range in metres, of either sign and not wrapped, whose phase is `phase_rad`: the inverse of [`phase_rad`].
+pub fn range_m(phase_rad: f64, frequency_hz: f64) -> f64 {
+    phase_rad / TAU * unambiguous_range_m(frequency_hz)
+}
+
 /// `difference_rad` brought into [−π, π).
 pub fn wrap_rad(difference_rad: f64) -> f64 {
     (difference_rad + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0
@@ -27,4 +32,18 @@ pub fn wrap_rad(difference_rad: f64) -> f64 {
 /// A phase word of `bits` bits (1 to 63) as a fraction of a turn, exactly.
 pub fn turns_of_code(code: i64, bits: u32) -> Turns {
     Turns::from_bits((code as u64) << (64 - bits))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A turn at 30 MHz is c / 60 MHz: 4.996 540 966 6 m by the speed of light's definition.
+    #[test]
+    fn a_turn_is_the_unambiguous_range_and_phases_go_there_and_back() {
+        assert!((range_m(TAU, 30e6) - 4.996_540_966_6).abs() < 1e-9);
+        for there_m in [-3.0, 0.0, 0.7, 12.5] {
+            assert!((range_m(phase_rad(there_m, 41e6), 41e6) - there_m).abs() < 1e-12);
+        }
+    }
 }

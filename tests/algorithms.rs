@@ -292,6 +292,53 @@ fn rows_are_those_of_another_source() {
     }
 }
 
+/// What docs/algorithms.md derives of N+1 type B and of N+3: as many roots as their degree, which leaves no freedom; weights that are conjugate
+/// about the middle frame; N+1 type B over the DFT's weights is 1 but for the ends, 1/2 -+ (i/2) cot step; N+3 has no first-order swing by
+/// a quadratic error of the steps, of which N+1 type B has some.
+#[test]
+fn longer_rows_are_what_their_roots_leave() {
+    for (name, of) in [
+        ("n-plus-1-b-3", 3),
+        ("hariharan", 4),
+        ("n-plus-1-b-6", 6),
+        ("n-plus-3-3", 3),
+        ("n-plus-3-4", 4),
+        ("n-plus-3-6", 6),
+    ] {
+        let row = named(name).unwrap().unwrap();
+        let verdict = Verdict::new(&row);
+        let last = row.frames() - 1;
+        assert_eq!(verdict.roots.iter().map(|(_, times)| times).sum::<usize>(), last, "{name}");
+        let step_rad = TAU / f64::from(of);
+        let turn = |rad: f64| Complex64::from_polar(1.0, rad);
+        let weights: Vec<Complex64> = row.polynomial.coefficients().to_vec();
+        let largest = weights.iter().map(|c| c.norm()).fold(0.0, f64::max);
+        // The phase at the middle frame.
+        let middle: Vec<Complex64> =
+            weights.iter().map(|c| c * turn(-step_rad * last as f64 / 2.0)).collect();
+        for (n, c) in middle.iter().enumerate() {
+            assert!((c - middle[last - n].conj()).norm() < 1e-12 * largest, "{name}: {n}");
+        }
+        // First order of a step error that grows with the square of the frame's number: what the image's term makes.
+        let swing = |square: fn(f64) -> f64| -> f64 {
+            let terms = weights.iter().enumerate();
+            terms.map(|(n, c)| c * turn(n as f64 * step_rad) * square(n as f64)).sum::<Complex64>().norm()
+                / largest
+        };
+        let is_long = name.starts_with("n-plus-3");
+        assert!(swing(|n| n) < 1e-12, "{name}");
+        assert_eq!(swing(|n| n * n) < 1e-12, is_long, "{name}");
+        if !is_long {
+            let window: Vec<Complex64> =
+                weights.iter().enumerate().map(|(n, c)| c * turn(-(n as f64) * step_rad)).collect();
+            let half = Complex64::new(0.5, -0.5 / step_rad.tan());
+            assert!((window[0] / window[1] - half).norm() < 1e-12, "{name}");
+            assert!((window[last] / window[1] - half.conj()).norm() < 1e-12, "{name}");
+            assert!(window[1..last].iter().all(|c| (c / window[1] - 1.0).norm() < 1e-12), "{name}");
+        }
+    }
+}
+
 /// The WDFT's frames in another order: a wrong step is as harmless as before, motion is not.
 #[test]
 fn motion_is_judged_in_the_order_of_the_frames() {

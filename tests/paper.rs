@@ -10,7 +10,10 @@ use vuris::paper::linearity::{by_moving, by_phase_stepping, errors};
 use vuris::paper::motion::{VELOCITY_M_S, error_curve, places_m};
 use vuris::paper::open_question::{MEASURED, chi_squared, fits};
 use vuris::paper::residual::{rms, span};
-use vuris::paper::rivals::{CALIBRATIONS, at_once_rms_m, calibrated_rms_m, ordered_rms_m, waveform_at};
+use vuris::paper::rivals::{
+    CALIBRATIONS, REMEDIES, RUNS, at_once_rms_m, calibrated_rms_m, near_edges, ordered_rms_m, take,
+    waveform_at,
+};
 use vuris::paper::table_1::{MEASURED as TABLE_1, spectrum};
 use vuris::paper::{Quantity, figures, linearity_range_m, quantities};
 use vuris::physics::{Correlation, Harmonic};
@@ -216,4 +219,51 @@ fn every_figure_of_the_paper_is_there_once_with_finite_points() {
             );
         }
     }
+}
+
+/// The golden numbers are of another independent program, in numpy, without noise: rays by similar triangles, closed forms of both
+/// arctangents, cosines summed directly. All 7168 pixels within eight columns of an edge, of eight runs.
+#[test]
+fn a_moving_edge_errs_as_in_an_independent_program() {
+    let [four, wdft] = Method::both().unwrap();
+    let rms_m = |method: &Method, correlation: &Correlation, velocity_m_s: f64| {
+        let errors_m: Vec<f64> = (0..RUNS)
+            .map(|run| take(method, correlation, velocity_m_s, run, false))
+            .flat_map(|take| {
+                let all = (REMEDIES[0].errors_m)(method, &take).into_iter().zip(take.near.clone());
+                all.filter(|(_, near)| *near).filter_map(|(error_m, _)| error_m).collect::<Vec<_>>()
+            })
+            .collect();
+        assert_eq!(errors_m.len(), 7168);
+        rms(&errors_m)
+    };
+    let golden = [
+        (&four, 0.0, 0.093_871_005_69),
+        (&wdft, 0.0, 0.092_859_456_47),
+        (&four, 1.0, 0.333_803_075_87),
+        (&wdft, 1.0, 0.381_959_630_79),
+        (&four, 2.0, 0.493_933_495_34),
+        (&wdft, 2.0, 0.522_065_111_56),
+    ];
+    for (method, velocity_m_s, golden_m) in golden {
+        let found_m = rms_m(method, &Correlation::measured(), velocity_m_s);
+        assert!((found_m - golden_m).abs() < 1e-9, "{} at {velocity_m_s}: {found_m}", method.name);
+    }
+    // A waveform or a velocity that is another is seen.
+    assert!((rms_m(&four, &Correlation::sinusoidal(), 1.0) - 0.333_803_075_87).abs() > 1e-4);
+    assert!((rms_m(&four, &Correlation::measured(), 1.01) - 0.333_803_075_87).abs() > 1e-4);
+}
+
+/// What the table's notes say of the remedies.
+#[test]
+fn remedies_against_lateral_motion_do_what_the_table_says() {
+    let [four, _] = Method::both().unwrap();
+    let (still, moving) = (near_edges(&four, 0.0), near_edges(&four, 1.0));
+    let [plain, flow, true_motion, carried, left_out, replaced] = moving[..] else { panic!("{moving:?}") };
+    // Where nothing moves, nothing is changed but by noise: of 100 mm, a few.
+    assert!(still.iter().all(|near| (near.rms_m / still[0].rms_m - 1.0).abs() < 0.05), "{still:?}");
+    assert_eq!((still[2], still[3]), (still[0], still[0]));
+    assert!(flow.rms_m < true_motion.rms_m && true_motion.rms_m < plain.rms_m, "{moving:?}");
+    assert!(carried.rms_m < true_motion.rms_m, "{moving:?}");
+    assert!(left_out.rms_m < plain.rms_m && left_out.without > 0.2 && replaced.without == 0.0, "{moving:?}");
 }

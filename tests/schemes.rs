@@ -10,10 +10,11 @@ mod support;
 use oracle::{Oracle, circular_difference};
 use std::f64::consts::TAU;
 use support::{ROWS, everything, row, small, two_at_a_time};
+use vuris::algorithms::{Basis, Polynomial};
 use vuris::cosim::{Simulation, Simulator, Traffic};
 use vuris::hdl::{Golden, Source};
 use vuris::model::{Accumulator, PixelRecord, PixelSlot, pixel};
-use vuris::spec::{DFT_FRAMES, Irrational, Pipeline, Row, Scheme, StepAngle};
+use vuris::spec::{DFT_FRAMES, Irrational, Pipeline, Row, Scheme, StepAngle, scheme};
 
 fn pipeline(scheme: Scheme, adc_bits: u32) -> Pipeline {
     small("vuris", |specification| {
@@ -160,6 +161,12 @@ fn rows_of_published_algorithms_measure_the_phase_of_the_light() {
     }
 }
 
+/// How often each harmonic from −`most` to `most` is a root, with the paper's sign of φ: that of the polynomial is the conjugate.
+fn roots(scheme: &Scheme, most: i64) -> Vec<usize> {
+    let polynomial = Polynomial::of_scheme(scheme).unwrap();
+    (-most..=most).map(|harmonic| polynomial.multiplicity(-harmonic, Basis::Angle)).collect()
+}
+
 /// By expanding the products: Hariharan, Oreb and Eiju's row (1987) and Surrel's 4 + 1 (1993) are (x^2 - 1)(x + i)^2, Schmit
 /// and Creath's (1995) is (x - 1)(x + i)^3, de Groot's (1995) is (x^2 - 1)(x + i)^4, and 3 + 1 is (x - 1)(x - z)^2 with z the
 /// third root of 1 that the fundamental's opposite has; each up to a factor, and conjugate for the paper's sign of phi.
@@ -176,9 +183,17 @@ fn roots_of_published_algorithms_are_their_authors() {
     ] {
         let number = ROWS.iter().position(|row| row.0 == name).unwrap();
         let scheme = row(number, 1);
-        let roots: Vec<usize> = (-3..=3).map(|harmonic| scheme.root_multiplicity(harmonic)).collect();
-        assert_eq!(roots, expected, "{name}");
+        assert_eq!(roots(&scheme, 3), expected, "{name}");
     }
+}
+
+/// Roots as the paper lists them.
+#[test]
+fn roots_are_the_papers() {
+    let of = |name: &str| roots(scheme(name).unwrap(), 5);
+    //                             m = -5 -4 -3 -2 -1  0  1  2  3  4  5
+    assert_eq!(of("four_frame"), [0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1]);
+    assert_eq!(of("wdft"), [2, 0, 2, 2, 0, 2, 2, 0, 2, 2, 0]);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use support::{hdl_tool, said};
 use vuris::bench::{Course, Plan, Simulation, chain, injection, practice_camera, sensor, simulate};
 use vuris::frames::Geometry;
 use vuris::physics::{Active, EFFECTS, Place, Stage};
-use vuris::recording::{Kind, Recording};
+use vuris::recording::{Kind, Recording, write_camera};
 
 fn vuris(arguments: &[&str], out: &Path, threads: &str) -> (bool, String) {
     let mut command = Command::cargo_bin("vuris").unwrap();
@@ -279,4 +279,30 @@ fn the_notes_show_the_registry_and_what_the_atlas_prints() {
         assert!(notes.lines().any(|line| line == shown), "docs/simulator.md does not show\n{shown}");
         assert!(folder.path().join(format!("effects/{}.svg", effect.name)).is_file());
     }
+}
+
+/// A pipeline of 12 bits behind a camera of 14 is two bits that are cut: the same bytes, and every code a multiple of 4.
+#[test]
+fn fixed_point_is_read_from_a_specification() {
+    let folder = tempfile::tempdir().unwrap();
+    let camera = folder.path().join("camera.toml");
+    let mut described = practice_camera(Geometry { width: 24, height: 18 });
+    described.adc_bits = 14;
+    write_camera(&described, folder.path()).unwrap();
+    let made = |name: &str, effect: &str| {
+        let out = folder.path().join(name);
+        let arguments =
+            ["--recordings", "four-dark", "--effect", effect, "--camera", camera.to_str().unwrap()];
+        let (good, text) = vuris(&arguments, &out, "2");
+        assert!(good, "{text}");
+        (files(&out), text, Recording::open(&out.join("four-dark")).unwrap())
+    };
+    let (by_pipeline, text, recording) = made("pipeline", "fixed_point:pipeline=vuris");
+    assert!(text.contains("cuts 2 of the camera's 14 bits"), "{text}");
+    assert!(by_pipeline == made("bits", "fixed_point:bits_cut=2").0);
+    assert!(recording.raw.codes().iter().all(|code| code % 4 == 0));
+    assert!(by_pipeline != made("other", "fixed_point:bits_cut=1").0);
+    let (good, text) =
+        vuris(&["--effect", "fixed_point:pipeline=none.toml"], &folder.path().join("none"), "2");
+    assert!(!good && text.contains("none.toml") && text.contains("presets vuris"), "{text}");
 }

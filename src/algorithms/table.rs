@@ -157,9 +157,9 @@ const ROWS: &[PublishedRow] = &[
 ];
 
 const N_PLUS_3: &str =
-    "N+3: the DFT's roots, the image three times, constant light twice (Surrel 1996, 1997)";
+    "N+3: the DFT's roots, the image three times, constant light twice; by the theory of Surrel 1996";
 const N_PLUS_3_REMARK: &str = "Made of the roots that its three further frames are taken for here (insensitive to a linear drift of the offset, and to the \
-     second order of a step error); its authors' own coefficients have not been compared.";
+     second order of a step error), which leave no freedom; that its authors chose these roots has not been checked.";
 
 /// Name, estimator, nominal step, reference.
 const ESTIMATORS: [(&str, Estimator, (i64, i64), &str); 3] = [

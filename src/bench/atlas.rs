@@ -1,14 +1,14 @@
 //! What an effect does to perfect data: its residual over phase, distance, frame and pixel.
 
-use super::camera::{FREQUENCY_HZ, chain, practice_camera, sensor};
+use super::camera::{chain, practice_camera, sensor};
 use super::course::Course;
 use super::injection::included_without;
 use super::simulation::Simulation;
 use crate::frames::Geometry;
-use crate::physics::{Active, Chain, Effect, Pixels, Sensor, Stage};
+use crate::physics::{Active, Chain, Effect, FREQUENCY_HZ, Pixels, Sensor, Stage};
 use crate::recording::{Camera, Kind, SetRow};
 use crate::spec::{SCHEMES, Scheme};
-use crate::units::{unambiguous_range_m, wrap_rad};
+use crate::units::{range_m, unambiguous_range_m, wrap_rad};
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -145,11 +145,11 @@ impl Atlas {
 
     /// Errors of the range, mm, `[set][pixel]`.
     fn errors_mm(&self, pair: &Pair, scheme: &Scheme, course: &Course) -> Vec<Vec<f64>> {
-        let mm_a_rad = 1e3 * unambiguous_range_m(course.frequency_hz) / TAU;
         let [flawed, perfect] =
             [&pair.flawed, &pair.perfect].map(|chain| phasors(chain, &self.sensor, scheme, course));
-        let error =
-            |(flawed, perfect): (&Complex64, &Complex64)| wrap_rad(flawed.arg() - perfect.arg()) * mm_a_rad;
+        let error = |(flawed, perfect): (&Complex64, &Complex64)| {
+            1e3 * range_m(wrap_rad(flawed.arg() - perfect.arg()), course.frequency_hz)
+        };
         let sets = flawed.iter().zip(&perfect);
         sets.map(|(flawed, perfect)| flawed.iter().zip(perfect).map(error).collect()).collect()
     }

@@ -5,9 +5,6 @@ use crate::physics::{Active, Chain, Correlation, Harmonic, Included, Pixels, Sen
 use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
 use std::sync::Arc;
 
-/// The modulation frequency of the paper's linearity measurements, Hz.
-pub const FREQUENCY_HZ: f64 = 30e6;
-
 // What no camera.toml says, as shares of the converter's full scale: a target of reflectivity 1 at 1 m fills a good half
 // of it, so that nothing saturates on the rail.
 const AMPLITUDE_1M: f64 = 0.154;

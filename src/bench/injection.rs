@@ -60,7 +60,7 @@ pub fn camera_effects(camera: &Camera, recording: &str) -> Result<Vec<Active>> {
         let (effect, recordings) = text.split_once('@').unwrap_or((text, ""));
         let active = injection(effect).map_err(|problem| {
             Problem::at("camera.toml: physics.effects", problem.found())
-                .expected("effects as `vuris simulate --effect` takes them")
+                .expected("effects as `vuris simulate --effect` takes them, with numbers")
         })?;
         if recordings.is_empty() || recordings.split(',').any(|known| known == recording) {
             effects.push(active);

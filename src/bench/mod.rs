@@ -11,10 +11,12 @@ mod course;
 mod injection;
 mod plan;
 mod simulation;
+mod word_length;
 
 pub use atlas::{Atlas, Line, Residuals, phasors};
-pub use camera::{FREQUENCY_HZ, chain, practice_camera, sensor};
+pub use camera::{chain, practice_camera, sensor};
 pub use course::{Course, moments};
 pub use injection::{camera_effects, included_without, injection};
 pub use plan::Plan;
 pub use simulation::{Simulation, simulate};
+pub use word_length::{injection_for, specification_of};

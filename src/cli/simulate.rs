@@ -3,11 +3,11 @@
 use super::print::{counted, say};
 use super::progress;
 use crate::bench::{
-    Course, FREQUENCY_HZ, Plan, Simulation, camera_effects, chain, included_without, injection,
-    practice_camera, sensor, simulate,
+    Course, Plan, Simulation, camera_effects, chain, included_without, injection_for, practice_camera,
+    sensor, simulate, specification_of,
 };
 use crate::frames::Geometry;
-use crate::physics::{Active, Chain, Correlation, EFFECTS, Pulse, Sensor, Stage};
+use crate::physics::{Active, Chain, Correlation, EFFECTS, FREQUENCY_HZ, Pulse, Sensor, Stage};
 use crate::problem::{Problem, Result};
 use crate::recording::{Camera, Recording, write_camera, write_recording};
 use clap::Args;
@@ -23,7 +23,8 @@ pub(super) struct Simulate {
     /// Folder of the new campaign
     #[arg(long, value_name = "DIR", required_unless_present = "frames_per_second")]
     out: Option<PathBuf>,
-    /// An effect that the camera's simulation lacks, at its typical size or with values; may be repeated
+    /// An effect that the camera's simulation lacks, at its typical size or with values; may be repeated. fixed_point:pipeline=SPEC
+    /// cuts the bits for which the specification SPEC (a preset or a TOML file) has no place
     #[arg(long, value_name = "NAME[:PARAMETER=VALUE,…]")]
     effect: Vec<String>,
     /// The camera; without it, a small one of 12 bits
@@ -87,7 +88,9 @@ impl Simulate {
             return frames_per_second();
         }
         let out = self.out.as_deref().unwrap_or(Path::new("."));
-        let effects: Vec<Active> = self.effect.iter().map(|text| injection(text)).collect::<Result<_>>()?;
+        let camera = self.described_camera()?;
+        let effects: Vec<Active> =
+            self.effect.iter().map(|text| injection_for(text, camera.adc_bits)).collect::<Result<_>>()?;
         let in_range = |name: &str, value: f64, low: f64, high: f64| {
             let found = format!("{value:e}");
             let problem =
@@ -96,7 +99,7 @@ impl Simulate {
         };
         in_range("--frequency-hz", self.frequency_hz, 1e4, 1e10)?;
         in_range("--frame-period-s", self.frame_period_s, 1e-6, 100.0)?;
-        let (camera, sensor) = self.camera(&effects)?;
+        let (camera, sensor) = self.camera(camera, &effects)?;
         let plan =
             Plan { frequency_hz: self.frequency_hz, frame_period_s: self.frame_period_s, seed: self.seed };
         let names = if self.recordings.is_empty() { Plan::names() } else { self.recordings.clone() };
@@ -117,6 +120,12 @@ impl Simulate {
                 Ok(chain(&camera, Arc::clone(&pixels), all))
             })
             .collect::<Result<_>>()?;
+        for (text, active) in
+            self.effect.iter().zip(&effects).filter(|(text, _)| specification_of(text).is_some())
+        {
+            let cut = active.values[0];
+            say!("{text}: cuts {cut} of the camera's {} bits", camera.adc_bits);
+        }
         write_camera(&camera, out)?;
         for ((name, course), chain) in names.iter().zip(&courses).zip(&chains) {
             // The same recording has the same noise, whichever others are taken.
@@ -150,12 +159,16 @@ impl Simulate {
         Ok(ExitCode::SUCCESS)
     }
 
+    /// The camera that the command line names.
+    fn described_camera(&self) -> Result<Camera> {
+        match &self.camera {
+            Some(path) => Camera::read(path),
+            None => Ok(practice_camera(Geometry { width: 24, height: 18 })),
+        }
+    }
+
     /// What the campaign's camera.toml says, and the sensor with its assumed light.
-    fn camera(&self, effects: &[Active]) -> Result<(Camera, Sensor)> {
-        let mut camera = match &self.camera {
-            Some(path) => Camera::read(path)?,
-            None => practice_camera(Geometry { width: 24, height: 18 }),
-        };
+    fn camera(&self, mut camera: Camera, effects: &[Active]) -> Result<(Camera, Sensor)> {
         if let Some(geometry) = self.size {
             camera.focal_length_px *= geometry.width as f64 / camera.geometry.width as f64;
             camera.geometry = geometry;

@@ -2,14 +2,14 @@
 
 use crate::algorithms::{Algorithm, named};
 use crate::frames::Geometry;
-use crate::physics::{Active, Chain, Correlation, Draws, Included, Memory, Moment, Pixels, Sensor};
+use crate::physics::{
+    Active, Chain, Correlation, Draws, FREQUENCY_HZ, Included, Memory, Moment, Pixels, Sensor,
+};
 use crate::problem::{Problem, Result};
-use crate::units::{phase_rad, unambiguous_range_m, wrap_rad};
+use crate::units::{phase_rad, range_m, wrap_rad};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// The modulation frequency of the paper's linearity measurements, Hz. It is assumed for the motion, too.
-pub const FREQUENCY_HZ: f64 = 30e6;
 /// What a measurement of the motion experiments takes, s.
 pub const MEASUREMENT_S: f64 = 0.125;
 /// Amplitude of a frame with the target at 1 m, DN: assumed. It fills the converter at some 0.8 m.
@@ -84,13 +84,8 @@ impl Method {
     /// Measured range less `true_m`, m, within half the unambiguous range.
     pub fn error_m(&self, frames: &[f64], true_m: f64, frequency_hz: f64) -> f64 {
         let found_rad = self.algorithm.vector(frames).arg();
-        metres(wrap_rad(found_rad - phase_rad(true_m, frequency_hz)), frequency_hz)
+        range_m(wrap_rad(found_rad - phase_rad(true_m, frequency_hz)), frequency_hz)
     }
-}
-
-/// A phase as a range, m.
-pub fn metres(phase_rad: f64, frequency_hz: f64) -> f64 {
-    phase_rad / TAU * unambiguous_range_m(frequency_hz)
 }
 
 /// How a set is taken.
@@ -174,7 +169,7 @@ impl Camera {
     /// Measured range less that at the set's start, m; the set's offset is not in it.
     pub fn error_m(&self, method: &Method, set: &Set) -> f64 {
         let frames = self.frames_dn(&method.steps_rad, set);
-        let true_m = set.range_m - metres(set.offset_rad, set.frequency_hz);
+        let true_m = set.range_m - range_m(set.offset_rad, set.frequency_hz);
         method.error_m(&frames, true_m, set.frequency_hz)
     }
 }

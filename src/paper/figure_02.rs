@@ -4,17 +4,17 @@ use super::camera::{Camera, Conditions, Method};
 use super::figure::{Figure, Plot};
 use super::linearity::{by_moving, by_phase_stepping};
 
-/// The figure; `four` is the four-frame method.
-pub fn figure(four: &Method) -> Figure {
+/// Figure `number`, 2 or 10: the linearity error of `method`, moved and phase-stepped.
+pub fn figure(number: u32, title: &'static str, method: &Method) -> Figure {
     let camera = Camera::new(Conditions::table_1());
     Figure {
-        number: 2,
-        title: "Four frames: linearity error with the target moved in steps of 50 mm",
+        number,
+        title,
         abscissa: "distance, m",
         ordinate: "error, m",
         plots: vec![
-            Plot::dots("moved, 100 measurements a step", by_moving(&camera, four)),
-            Plot::line("phase stepping", by_phase_stepping(&camera, four)),
+            Plot::dots("moved, 100 measurements a step", by_moving(&camera, method)),
+            Plot::line("phase stepping", by_phase_stepping(&camera, method)),
         ],
         assumed: "phases 0; rail from 0.9 to 4.9 m; light and noise of the simulator's camera",
     }

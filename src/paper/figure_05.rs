@@ -17,7 +17,7 @@ pub fn about_frame(four: &Method, frame: u32) -> Vec<(f64, f64)> {
 pub fn means_m(four: &Method) -> [f64; 4] {
     // Two cycles in 5 m: the places from 1 m on within 2.5 m, of which 2 m are on the rail, would not be whole ones.
     let camera = Camera::new(Conditions::sinusoidal());
-    let turn_m = super::camera::metres(std::f64::consts::TAU, super::camera::FREQUENCY_HZ);
+    let turn_m = crate::units::range_m(std::f64::consts::TAU, crate::physics::FREQUENCY_HZ);
     let places = (0..100).map(|n| 1.0 + turn_m * f64::from(n) / 100.0);
     let errors: Vec<f64> = places.map(|place| moved_error_m(&camera, four, place, VELOCITY_M_S)).collect();
     [0.0, 1.0, 2.0, 3.0].map(|frame| mean(&errors) - VELOCITY_M_S * frame * four.frame_period_s())

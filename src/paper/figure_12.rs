@@ -1,11 +1,11 @@
 //! Figure 12: a deliberate step error, phase-stepped, does what motion does.
 
-use super::camera::{Camera, Conditions, FREQUENCY_HZ, Method, Set, metres};
+use super::camera::{Camera, Conditions, Method, Set};
 use super::figure::{Figure, Plot};
 use super::motion::VELOCITY_M_S;
 use super::residual::without_mean;
-use crate::physics::Correlation;
-use crate::units::phase_rad;
+use crate::physics::{Correlation, FREQUENCY_HZ};
+use crate::units::{phase_rad, range_m};
 use std::f64::consts::TAU;
 
 const OFFSETS: u32 = 120;
@@ -41,7 +41,7 @@ pub fn moved(method: &Method, correlation: &Correlation, velocity_m_s: f64) -> V
 }
 
 fn about_mean(error_m: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-    let places_m = (0..OFFSETS).map(|n| metres(TAU * f64::from(n) / f64::from(OFFSETS), FREQUENCY_HZ));
+    let places_m = (0..OFFSETS).map(|n| range_m(TAU * f64::from(n) / f64::from(OFFSETS), FREQUENCY_HZ));
     let places_m: Vec<f64> = places_m.collect();
     let errors_m = without_mean(&places_m.iter().map(|place_m| error_m(*place_m)).collect::<Vec<_>>());
     places_m.into_iter().zip(errors_m).collect()

@@ -1,8 +1,9 @@
 //! Linearity, measured both ways: by stepping the phase before a still target, and by moving the target.
 
-use super::camera::{Camera, Conditions, FREQUENCY_HZ, Method, Set, metres, read};
+use super::camera::{Camera, Conditions, Method, Set, read};
 use super::residual::{without_line, without_mean};
-use crate::physics::{Correlation, Draws, Harmonic};
+use crate::physics::{Correlation, Draws, FREQUENCY_HZ, Harmonic};
+use crate::units::{phase_rad, range_m};
 use std::f64::consts::TAU;
 
 /// Phase offsets of a turn: with every method here they fall on different places of its cycles.
@@ -24,11 +25,11 @@ pub const SEED: u64 = 2012;
 /// Distance and error, m, of a still target whose initial phase offset is stepped over a turn: the distance is the one that has the
 /// offset's phase. The mean is removed.
 pub fn by_phase_stepping(camera: &Camera, method: &Method) -> Vec<(f64, f64)> {
-    let places_m = (0..OFFSETS).map(|n| metres(TAU * f64::from(n) / f64::from(OFFSETS), FREQUENCY_HZ));
+    let places_m = (0..OFFSETS).map(|n| range_m(TAU * f64::from(n) / f64::from(OFFSETS), FREQUENCY_HZ));
     let places_m: Vec<f64> = places_m.collect();
     let error_m = |place_m: &f64| {
         // The light's path has the phase of 2 m, the offset the rest.
-        let offset_rad = crate::units::phase_rad(STILL_M - place_m, FREQUENCY_HZ);
+        let offset_rad = phase_rad(STILL_M - place_m, FREQUENCY_HZ);
         camera.error_m(method, &Set { offset_rad, ..Set::still(method, STILL_M) })
     };
     let errors_m = without_mean(&places_m.iter().map(error_m).collect::<Vec<_>>());
@@ -78,7 +79,7 @@ mod tests {
             let points = by_phase_stepping(&Camera::new(Conditions::table_1()), method);
             let errors_m = errors(&points);
             let part = |of: fn(f64) -> f64| {
-                let turn_m = metres(TAU, FREQUENCY_HZ);
+                let turn_m = range_m(TAU, FREQUENCY_HZ);
                 let sum: f64 = points.iter().map(|(x, y)| y * of(TAU * cycles * x / turn_m)).sum();
                 2.0 * sum / f64::from(OFFSETS)
             };

@@ -45,7 +45,7 @@ pub fn figures() -> Result<Vec<Figure>> {
     let [four, wdft] = &methods;
     Ok(vec![
         figure_01::figure(four),
-        figure_02::figure(four),
+        figure_02::figure(2, "Four frames: linearity error with the target moved in steps of 50 mm", four),
         table_1::figure_3(),
         figure_04::figure(four),
         figure_05::figure(four),

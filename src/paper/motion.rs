@@ -1,9 +1,9 @@
 //! Motion: the paper's procedure, static calibration subtracted and mean removed.
 
-use super::camera::{Camera, FREQUENCY_HZ, MEASUREMENT_S, Method, Set, read};
+use super::camera::{Camera, MEASUREMENT_S, Method, Set, read};
 use super::linearity::SEED;
 use super::residual::{mean, rms, span, without_mean};
-use crate::physics::Draws;
+use crate::physics::{Draws, FREQUENCY_HZ};
 
 /// The carriage's velocity in the measurements, m/s.
 pub const VELOCITY_M_S: f64 = 2.0;

@@ -4,13 +4,13 @@
 //! fitted to the four numbers that the paper measured. Another hypothesis with one free number stands beside it: frames that are
 //! farther apart than 125 ms allow. Frames are linear in the ratio, so that two simulations tell all.
 
-use super::camera::{Camera, Conditions, FREQUENCY_HZ, Method, Set};
+use super::camera::{Camera, Conditions, Method, Set};
 use super::figure_07::with_falloff;
 use super::linearity::SEED;
 use super::motion::{VELOCITY_M_S, error_curve, places_m};
 use super::quantity::Measured;
 use super::residual::{mean, rms, span, without_mean};
-use crate::physics::Draws;
+use crate::physics::{Draws, FREQUENCY_HZ};
 
 /// What the paper measured at 2 m/s and 125 ms: RMS and range of four frames, then of the WDFT, m.
 pub const MEASURED: [Measured; 4] = [

@@ -1,9 +1,9 @@
 //! Table I, and figure 3: the spectrum of the correlation waveform, from 64 frames.
 
-use super::camera::{Camera, Conditions, FREQUENCY_HZ, Set, read};
+use super::camera::{Camera, Conditions, Set, read};
 use super::figure::{Figure, Plot, Stroke, Table};
 use super::linearity::SEED;
-use crate::physics::Draws;
+use crate::physics::{Draws, FREQUENCY_HZ};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 

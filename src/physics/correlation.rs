@@ -2,6 +2,10 @@
 
 use super::trig::cos_sin;
 
+/// The modulation frequency of the paper's linearity measurements, Hz (Drayton, Carnegie, Dorrington 2012), and so of
+/// [`Correlation::measured`]. Elsewhere, as for the paper's motion, it is assumed.
+pub const FREQUENCY_HZ: f64 = 30e6;
+
 /// The correlation of the modulated light with the sensor's own modulation, as harmonics of the modulation frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlation {

@@ -25,7 +25,7 @@ mod stage;
 mod trig;
 
 pub use chain::{Chain, Memory};
-pub use correlation::{Correlation, Harmonic};
+pub use correlation::{Correlation, FREQUENCY_HZ, Harmonic};
 pub use draws::Draws;
 pub use effect::{Active, Chance, Effect, Parameter, Place};
 pub use effects::EFFECTS;

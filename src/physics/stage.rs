@@ -28,7 +28,8 @@ pub struct Stage {
 impl Stage {
     /// A target of grey patches before a wall at 4.4 m with two boxes, so that there are edges.
     pub fn bench() -> Self {
-        let still = |shape, reflectivity| Object { shape, reflectivity, check_m: None, velocity_m_s: 0.0 };
+        let still =
+            |shape, reflectivity| Object { shape, reflectivity, check_m: None, velocity_m_s: [0.0; 3] };
         let wall =
             Shape::Panel { centre_m: [0.0, 0.0, 4.4], half_edges_m: [[20.0, 0.0, 0.0], [0.0, 20.0, 0.0]] };
         let low = Shape::Box { low_m: [-4.0, 0.8, 3.5], high_m: [0.3, 4.0, 3.9] };

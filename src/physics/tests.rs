@@ -7,8 +7,6 @@ use crate::units::{unambiguous_range_m, wrap_rad};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
-const FREQUENCY_HZ: f64 = 30e6;
-
 /// Four frames or WDFT at 30 MHz and 25 ms a frame, one set.
 fn acquisition(name: &str) -> Acquisition {
     Acquisition {
@@ -55,7 +53,7 @@ fn errors_over_a_turn(correlation: &Correlation, name: &str, velocity_m_s: f64, 
     (0..64)
         .map(|step| {
             let mut scene = Scene::wall(start_m + unambiguous_range_m(FREQUENCY_HZ) * f64::from(step) / 64.0);
-            scene.objects[0].velocity_m_s = velocity_m_s;
+            scene.objects[0].velocity_m_s[2] = velocity_m_s;
             let (frames, true_m) = simulate(&scene, correlation, &sensor, &acquisition, None).unwrap();
             wrap_rad(measured(&frames, &acquisition)[0].0 - phase_rad(true_m[0], FREQUENCY_HZ))
         })
@@ -76,7 +74,7 @@ fn rms(errors: &[f64]) -> f64 {
 #[test]
 fn without_harmonics_and_noise_the_range_comes_back_to_the_converters_rounding() {
     let mut scene = Scene::room();
-    scene.objects.iter_mut().for_each(|object| object.velocity_m_s = 0.0);
+    scene.objects.iter_mut().for_each(|object| object.velocity_m_s = [0.0; 3]);
     for (name, frames_per_step) in [("four_frame", 1), ("wdft", 1), ("wdft", 3)] {
         let acquisition = Acquisition { frames_per_step, ..acquisition(name) };
         let (frames, true_m) =

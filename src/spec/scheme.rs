@@ -206,34 +206,6 @@ impl Scheme {
         }
     }
 
-    /// How many times P(x) has the root exp(i m δ): 0 where harmonic m comes through. Of unequal steps, the order up to which
-    /// the harmonic is rejected under a linear error of the steps, which for equal ones is the same:
-    /// Σ c_n angle_n^k exp(i m angle_n) = 0 for k = 0 … multiplicity − 1.
-    pub fn root_multiplicity(&self, harmonic: i32) -> usize {
-        let first = self.angles[0].turns();
-        let furthest = self.angles.iter().map(|angle| (angle.turns() - first).abs()).fold(0.0, f64::max);
-        let mut terms: Vec<(Complex64, f64)> = self
-            .characteristic_polynomial()
-            .into_iter()
-            .zip(&*self.angles)
-            .map(|(c, angle)| {
-                let root = Complex64::from_polar(1.0, f64::from(harmonic) * angle.rad());
-                (c * root, (angle.turns() - first) / furthest)
-            })
-            .collect();
-        let mut multiplicity = 0;
-        while multiplicity + 1 < self.steps() {
-            let value: Complex64 = terms.iter().map(|(term, _)| term).sum();
-            let scale: f64 = terms.iter().map(|(term, _)| term.norm()).sum();
-            if value.norm() > 1e-9 * scale {
-                break;
-            }
-            multiplicity += 1;
-            terms.iter_mut().for_each(|(term, angle)| *term *= *angle);
-        }
-        multiplicity
-    }
-
     /// Largest share of the vector at amplitude 1 that harmonic `harmonic` of the same amplitude adds to it.
     pub fn harmonic_leakage(&self, harmonic: i32) -> f64 {
         let part = |m: i32| -> f64 {
@@ -290,17 +262,6 @@ mod tests {
                 assert!((sum(&scheme.offset) - scheme.offset_gain() as f64 * 300.0).abs() < 1e-9);
             }
         }
-    }
-
-    /// Roots as the paper lists them (with its sign of φ every root is the conjugate of Surrel's).
-    #[test]
-    fn roots_are_the_papers() {
-        let four = scheme("four_frame").unwrap();
-        let wdft = scheme("wdft").unwrap();
-        let roots = |scheme: &Scheme| (-5..=5).map(|m| scheme.root_multiplicity(m)).collect::<Vec<_>>();
-        //                        m = -5 -4 -3 -2 -1  0  1  2  3  4  5
-        assert_eq!(roots(four), [0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1]);
-        assert_eq!(roots(wdft), [2, 0, 2, 2, 0, 2, 2, 0, 2, 2, 0]);
     }
 
     /// c_N of the catalogue: 0.707 for four frames (σ_φ = σ/(A√2)), 0.685 for the WDFT.

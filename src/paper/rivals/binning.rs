@@ -1,9 +1,9 @@
 //! Binning: the mean of neighbouring pixels. It halves noise with 2 × 2, and leaves the motion error, which all of them share.
 
-use crate::paper::camera::{Camera, Conditions, FREQUENCY_HZ, Method, Set, read};
+use crate::paper::camera::{Camera, Conditions, Method, Set, read};
 use crate::paper::linearity::SEED;
 use crate::paper::residual::{rms, without_mean};
-use crate::physics::Draws;
+use crate::physics::{Draws, FREQUENCY_HZ};
 
 const TRIALS: usize = 1000;
 const STREAM: u64 = 8;

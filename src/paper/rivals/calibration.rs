@@ -6,11 +6,11 @@ use super::least_squares::fit;
 use super::look_up::LOOK_UP;
 use super::polynomial::POLYNOMIAL;
 use super::sinusoid::SINUSOID;
-use crate::paper::camera::{Camera, Conditions, FREQUENCY_HZ, Method, Set, read};
+use crate::paper::camera::{Camera, Conditions, Method, Set, read};
 use crate::paper::figure::{Table, mm};
 use crate::paper::linearity::SEED;
 use crate::paper::residual::{rms, without_mean};
-use crate::physics::{Correlation, Draws};
+use crate::physics::{Correlation, Draws, FREQUENCY_HZ};
 use crate::units::{phase_rad, unambiguous_range_m};
 use std::f64::consts::TAU;
 

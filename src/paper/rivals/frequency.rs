@@ -1,6 +1,6 @@
 //! The waveform at another modulation frequency.
 
-use crate::paper::camera::FREQUENCY_HZ;
+use crate::physics::FREQUENCY_HZ;
 use crate::physics::{Correlation, Harmonic};
 use num_complex::Complex64;
 

@@ -1,34 +1,22 @@
-//! Linear least squares by the normal equations.
+//! Linear least squares.
 
-/// The coefficients that make Σ (y − Σ c_i b_i(x))² least; `None` where the basis is not independent on the points.
-///
-/// Normal equations square the condition number. The bases here are near to orthogonal on their points, so that this costs nothing.
+use nalgebra::{DMatrix, DVector};
+
+/// Singular values below this share of the largest count as 0.
+const DEPENDENT: f64 = 1e-10;
+
+/// The coefficients that make Σ (y − Σ c_i b_i(x))² least; `None` where there are no points, or the basis is not independent on them.
 pub fn fit(basis: fn(f64) -> Vec<f64>, points: &[(f64, f64)]) -> Option<Vec<f64>> {
-    let rows: Vec<(Vec<f64>, f64)> = points.iter().map(|(x, y)| (basis(*x), *y)).collect();
-    let size = rows.first()?.0.len();
-    // The matrix, and the right side as its last column.
-    let mut matrix = vec![vec![0.0; size + 1]; size];
-    for (row, y) in &rows {
-        for (i, line) in matrix.iter_mut().enumerate() {
-            for (cell, value) in line.iter_mut().zip(row.iter().chain([y])) {
-                *cell += row[i] * value;
-            }
-        }
+    let rows: Vec<Vec<f64>> = points.iter().map(|(x, _)| basis(*x)).collect();
+    let size = rows.first()?.len();
+    let matrix = DMatrix::from_row_iterator(rows.len(), size, rows.into_iter().flatten());
+    let ordinates = DVector::from_iterator(points.len(), points.iter().map(|(_, y)| *y));
+    let parts = matrix.svd(true, true);
+    let least = DEPENDENT * parts.singular_values.max();
+    if parts.rank(least) < size {
+        return None;
     }
-    for pivot in 0..size {
-        let largest =
-            (pivot..size).max_by(|a, b| matrix[*a][pivot].abs().total_cmp(&matrix[*b][pivot].abs()))?;
-        matrix.swap(pivot, largest);
-        let line = matrix[pivot].clone();
-        if line[pivot].abs() < 1e-12 {
-            return None;
-        }
-        for (_, other) in matrix.iter_mut().enumerate().filter(|(i, _)| *i != pivot) {
-            let factor = other[pivot] / line[pivot];
-            other.iter_mut().zip(&line).for_each(|(cell, value)| *cell -= factor * value);
-        }
-    }
-    Some((0..size).map(|i| matrix[i][size] / matrix[i][i]).collect())
+    Some(parts.solve(&ordinates, least).ok()?.iter().copied().collect())
 }
 
 #[cfg(test)]
@@ -44,5 +32,7 @@ mod tests {
             assert!((found - true_value).abs() < 1e-9, "{found}");
         }
         assert_eq!(fit(|x| vec![x, 2.0 * x], &points), None);
+        assert_eq!(fit(|x| vec![1.0, x, x * x], &points[..2]), None);
+        assert_eq!(fit(|x| vec![x], &[]), None);
     }
 }

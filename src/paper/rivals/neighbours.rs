@@ -1,10 +1,10 @@
 //! All four phases at once, in neighbouring pixels.
 
-use crate::paper::camera::{Camera, Conditions, FREQUENCY_HZ, Method, Set};
+use crate::paper::camera::{Camera, Conditions, Method, Set};
 use crate::paper::linearity::SEED;
 use crate::paper::motion::VELOCITY_M_S;
 use crate::paper::residual::{rms, without_mean};
-use crate::physics::Draws;
+use crate::physics::{Draws, FREQUENCY_HZ};
 use std::f64::consts::TAU;
 
 /// Standard deviation of the reflectivity from pixel to pixel: that of the simulator's bench, assumed.

@@ -2,12 +2,13 @@
 
 use super::binning::binned_rms_m;
 use super::neighbours::{GRAIN, at_once_rms_m, texture_rms_m};
-use crate::paper::camera::{Camera, Conditions, FREQUENCY_HZ, Method, Set, metres};
+use crate::paper::camera::{Camera, Conditions, Method, Set};
 use crate::paper::figure::{Table, mm};
 use crate::paper::figure_07::with_falloff;
 use crate::paper::motion::VELOCITY_M_S;
 use crate::paper::residual::{rms, without_mean};
-use crate::units::phase_rad;
+use crate::physics::FREQUENCY_HZ;
+use crate::units::{phase_rad, range_m, wrap_rad};
 use std::f64::consts::TAU;
 
 const OFFSETS: u32 = 60;
@@ -43,7 +44,7 @@ pub fn ordered_rms_m(method: &Method, conditions: Conditions, order: &[usize]) -
         let still = Set { velocity_m_s: 0.0, ..moving.clone() };
         let apart_m = camera.error_m(method, &moving) - camera.error_m(method, &still);
         // Within half the unambiguous range.
-        metres(crate::units::wrap_rad(phase_rad(apart_m, FREQUENCY_HZ)), FREQUENCY_HZ)
+        range_m(wrap_rad(phase_rad(apart_m, FREQUENCY_HZ)), FREQUENCY_HZ)
     };
     rms(&without_mean(&(0..OFFSETS).map(error).collect::<Vec<_>>()))
 }
@@ -104,7 +105,6 @@ pub fn table(methods: &[Method; 2]) -> Table {
                  of {:.0} % (assumed). Edges are worse.",
                 100.0 * GRAIN
             ),
-            "Missing: optical flow, and the edges of a 2D camera, against lateral motion. One pixel has none.".to_owned(),
         ],
     }
 }

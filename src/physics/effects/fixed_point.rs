@@ -1,4 +1,7 @@
 //! The camera's own arithmetic: low bits that are cut off before they are accumulated.
+//!
+//! Recordings hold raw codes, so that no later rounding of a pipeline can be in them. `fixed_point:pipeline=SPEC` on the command line takes
+//! the number of bits from a pipeline's specification.
 
 use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
 

@@ -3,8 +3,7 @@
 use super::super::table::csv_text;
 use crate::algorithms::{Algorithm, Curve};
 use crate::problem::Result;
-use crate::units::unambiguous_range_m;
-use std::f64::consts::TAU;
+use crate::units::{phase_rad, range_m, unambiguous_range_m};
 use std::fmt;
 
 /// What makes a phase of a velocity.
@@ -19,12 +18,12 @@ pub struct Bench {
 impl Bench {
     /// Phase from one frame to the next at `velocity_m_s`, rad.
     pub fn motion_rad(&self, velocity_m_s: f64) -> f64 {
-        TAU * velocity_m_s * self.frame_s / unambiguous_range_m(self.frequency_hz)
+        phase_rad(velocity_m_s * self.frame_s, self.frequency_hz)
     }
 
     /// `phase_rad` as a range, mm.
     pub fn mm(&self, phase_rad: f64) -> f64 {
-        1e3 * phase_rad / TAU * unambiguous_range_m(self.frequency_hz)
+        1e3 * range_m(phase_rad, self.frequency_hz)
     }
 
     /// The curve of `algorithm` on this bench.
