@@ -49,7 +49,7 @@ pub fn recordings(
     let sets = whole_sets(stack, frames)?;
     let count = taking.names.len().max(1);
     if !sets.is_multiple_of(count) {
-        return Err(Problem::at("--recordings", format_args!("{sets} sets are not equally many in {count}"))
+        return Err(Problem::at("--recordings", format_args!("{count}, of sets: {sets}"))
             .expected(format_args!("a number of recordings that divides {sets}")));
     }
     if let Some(camera) = camera
@@ -123,19 +123,25 @@ fn whole_sets(stack: &Stack, frames: usize) -> Result<usize> {
     if left == 0 && held >= frames && frames > 0 {
         return Ok(held / frames);
     }
-    let [Some(first), Some(last)] =
-        [files.first(), files.last()].map(|source| source.map(|source| source.file.display()))
-    else {
+    let (Some(first), Some(last)) = (files.first(), files.last()) else {
         return Err(Problem::at("the files", "no frames"));
     };
-    let found = format_args!("{held} frames in {} files, from {first} to {last}", files.len());
+    let found = match files.len() {
+        1 => format!("frames: {held}, in {}", first.file.display()),
+        count => {
+            format!(
+                "frames: {held}, in {count} files from {} to {}",
+                first.file.display(),
+                last.file.display()
+            )
+        }
+    };
     let problem = Problem::at("the files", found).expected(format_args!("a multiple of --steps {frames}"));
+    let missing = frames - left;
     Err(match held / frames.max(1) {
-        0 => problem.remedy(format_args!("name all files of a set; {} are missing", frames - held)),
+        0 => problem.remedy(format_args!("name all files of a set ({missing} missing), or correct --steps")),
         _ => problem.remedy(format_args!(
-            "leave out {left} that are no phase steps (a white picture at the end?), find {} that are missing, or \
-             correct --steps",
-            frames - left
+            "leave out {left} (a white picture at the end?), add {missing}, or correct --steps"
         )),
     })
 }

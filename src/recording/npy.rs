@@ -54,7 +54,8 @@ pub fn read(path: &Path, allowed: &[&str], axes: &str) -> Result<Codes> {
     let shape = header.shape();
     if shape.len() != axes.split(',').count() || shape.contains(&0) {
         return Err(Problem::in_file(path, format_args!("its shape is {}", shown(shape)))
-            .expected(format_args!("{axes}, at least 1 of each")));
+            .expected(format_args!("{axes}, at least 1 of each"))
+            .remedy("save it with array.reshape(…)"));
     }
 
     let item = if dtype.ends_with('1') {

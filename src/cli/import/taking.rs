@@ -42,7 +42,7 @@ pub(super) struct Frames {
     #[arg(long, value_name = "KIND", default_value = "other")]
     kind: String,
     /// Distance of the target along the axis, m; one, or one for each set, with commas
-    #[arg(long, value_name = "M", value_delimiter = ',')]
+    #[arg(long, value_name = "M", value_delimiter = ',', allow_hyphen_values = true)]
     position_m: Vec<f64>,
     /// Velocity of the target, m/s, positive away from the camera; one, or one for each set, with commas
     #[arg(long, value_name = "M/S", value_delimiter = ',', default_value = "0", allow_hyphen_values = true)]
