@@ -398,13 +398,13 @@ fn files_that_do_not_fit_are_refused_by_name() {
     home.refused(
         "stack",
         &four[..3],
-        &["frames: 3, in 3 files from f0.png to f2.png", "--steps 4", "1 missing"],
+        &["3 frames in 3 files, from f0.png to f2.png", "--steps 4", "1 missing"],
     );
     let five = [&four[..], &["f0.bmp"]].concat();
-    home.refused("stack", &five, &["frames: 5, in 5 files from f0.bmp to f3.png", "leave out 1", "add 3"]);
+    home.refused("stack", &five, &["5 frames in 5 files, from f0.bmp to f3.png", "leave out 1", "add 3"]);
     home.refused("stack", &[&four[..], &["f2.png"]].concat(), &["f2.png: is named twice"]);
     home.refused("stack", &["."], &[".: is a folder", "name the files"]);
-    home.refused("stack", &[&four[..], &["--recordings", "3"]].concat(), &["--recordings: 3, of sets: 1"]);
+    home.refused("stack", &[&four[..], &["--recordings", "3"]].concat(), &["--recordings: 3 of 1 sets"]);
 
     fs::write(home.path("text.png"), "no picture").unwrap();
     fs::write(home.path("empty.png"), "").unwrap();
@@ -614,5 +614,5 @@ fn real_pictures_of_twelve_steps_are_three_recordings() {
     assert!(refusal.contains("is there already"), "{refusal}");
     fs::rename(home.path("campaign"), home.path("taken")).unwrap();
     let refusal = home.refusal(&arguments);
-    assert!(refusal.contains("frames: 37, in 37 files") && refusal.contains("white picture"), "{refusal}");
+    assert!(refusal.contains("37 frames in 37 files") && refusal.contains("white picture"), "{refusal}");
 }

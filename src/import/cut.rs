@@ -49,7 +49,7 @@ pub fn recordings(
     let sets = whole_sets(stack, frames)?;
     let count = taking.names.len().max(1);
     if !sets.is_multiple_of(count) {
-        return Err(Problem::at("--recordings", format_args!("{count}, of sets: {sets}"))
+        return Err(Problem::at("--recordings", format_args!("{count} of {sets} sets"))
             .expected(format_args!("a number of recordings that divides {sets}")));
     }
     if let Some(camera) = camera
@@ -126,15 +126,11 @@ fn whole_sets(stack: &Stack, frames: usize) -> Result<usize> {
     let (Some(first), Some(last)) = (files.first(), files.last()) else {
         return Err(Problem::at("the files", "no frames"));
     };
+    let counted = format!("{held} frame{}", if held == 1 { "" } else { "s" });
+    let (first, last) = (first.file.display(), last.file.display());
     let found = match files.len() {
-        1 => format!("frames: {held}, in {}", first.file.display()),
-        count => {
-            format!(
-                "frames: {held}, in {count} files from {} to {}",
-                first.file.display(),
-                last.file.display()
-            )
-        }
+        1 => format!("{counted} in {first}"),
+        count => format!("{counted} in {count} files, from {first} to {last}"),
     };
     let problem = Problem::at("the files", found).expected(format_args!("a multiple of --steps {frames}"));
     let missing = frames - left;
