@@ -29,6 +29,7 @@
 //! | [`synthesis`] | area and clock frequency by real synthesis, and the gate on them |
 //! | [`proof`] | what the checks are worth: mutants of the RTL, coverage, formal proofs |
 //! | [`recording`] | the recording format, read and written |
+//! | [`import`] | other instruments' pictures, arrays and flat dumps as recordings |
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
 //! | [`algorithms`] | phase algorithms: characteristic polynomials, verdicts, sensitivities, the design of rows |
 //! | [`physics`] | the forward simulator of raw frames, and its effects, one file each |
@@ -43,8 +44,8 @@
 //! # What is absent on purpose
 //! - **No floating point in [`model`]**, no I/O, nothing that can fail. Constants come from [`spec::exact`].
 //! - **[`model`] and [`physics`] never see each other**: they meet in frames. [`hdl`] never sees [`physics`].
-//! - **Only [`cli`], [`recording`], [`artifact`], [`cosim`], [`proof`], [`synthesis`] and the reading of a specification touch
-//!   files or processes**; only [`cli`] knows clap, only [`hdl`], [`package`] and [`report`] may know askama.
+//! - **Only [`cli`], [`recording`], [`import`], [`artifact`], [`cosim`], [`proof`], [`synthesis`] and the reading of a
+//!   specification touch files or processes**; only [`cli`] knows clap, only [`hdl`], [`package`] and [`report`] may know askama.
 //!
 //! `tests/architecture.rs` asserts each of these sentences.
 
@@ -57,6 +58,7 @@ pub mod diagnose;
 pub mod fields;
 pub mod frames;
 pub mod hdl;
+pub mod import;
 pub mod model;
 pub mod package;
 pub mod paper;

@@ -48,7 +48,7 @@ fn number_after(text: &str, before: &str) -> f64 {
 
 #[test]
 fn help_names_every_command_and_every_option() {
-    let commands: [(&str, &[&str]); 11] = [
+    let commands: [(&str, &[&str]); 12] = [
         (
             "algorithms",
             &["show", "design", "--json", "--out <DIR>", "--frequency-hz <HZ>", "--frame-ms <MS>"],
@@ -95,6 +95,7 @@ fn help_names_every_command_and_every_option() {
                 "--frames-per-second",
             ],
         ),
+        ("import", &["stack", "raw"]),
         ("atlas", &["--out <DIR>"]),
         (
             "sweep",

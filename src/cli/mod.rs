@@ -8,6 +8,7 @@ mod demo;
 mod diagnose;
 mod explain;
 mod generate;
+mod import;
 mod mutate;
 mod paper;
 mod print;
@@ -45,6 +46,7 @@ enum Command {
     Explain(explain::Explain),
     Scene(scene::Scene),
     Simulate(Box<simulate::Simulate>),
+    Import(import::Import),
     Atlas(atlas::Atlas),
     Paper(paper::Paper),
     Sweep(Box<sweep::Sweep>),
@@ -68,6 +70,7 @@ impl Arguments {
             Command::Explain(command) => command.run(),
             Command::Scene(command) => command.run(),
             Command::Simulate(command) => command.run(),
+            Command::Import(command) => command.run(),
             Command::Atlas(command) => command.run(),
             Command::Paper(command) => command.run(),
             Command::Sweep(command) => command.run(),

@@ -20,8 +20,9 @@ mod write;
 
 pub use camera::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
 pub use kind::Kind;
+pub use npy::{Codes, read as read_npy};
 pub use sets::SetRow;
-pub use write::{write_camera, write_recording};
+pub use write::{write_camera, write_campaign, write_recording, write_recording_with_camera};
 
 use crate::frames::{Geometry, RawSets};
 use crate::problem::{Problem, Result};

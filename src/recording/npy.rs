@@ -7,8 +7,11 @@ use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 /// An array of unsigned numbers in C order.
-pub(super) struct Codes {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Codes {
+    /// Size of each axis, at least 1.
     pub shape: Vec<usize>,
+    /// The numbers, as many as the product of the shape.
     pub values: Vec<u32>,
 }
 
@@ -17,8 +20,11 @@ const LONGEST_HEADER: u64 = 1 << 16;
 /// Bytes decoded at a time: few enough to stay in the processor's cache.
 const CHUNK: usize = 1 << 16;
 
-/// Reads the array at `path`, whose type must be one of `allowed` (`<u2`, …) and whose number of axes that of `axes`.
-pub(super) fn read(path: &Path, allowed: &[&str], axes: &str) -> Result<Codes> {
+/// Reads the array at `path`, whose type must be one of `allowed` (`<u2`, …) and whose number of axes that of `axes` (`[frame, row, column]`).
+///
+/// # Errors
+/// A file that is not there, no array, of another type, order or number of axes, empty, or not as long as it says.
+pub fn read(path: &Path, allowed: &[&str], axes: &str) -> Result<Codes> {
     let io = |error: &std::io::Error| Problem::io(path, "read", error);
     let mut file = File::open(path).map_err(|error| io(&error))?;
     let metadata = file.metadata().map_err(|error| io(&error))?;
@@ -48,7 +54,8 @@ pub(super) fn read(path: &Path, allowed: &[&str], axes: &str) -> Result<Codes> {
     let shape = header.shape();
     if shape.len() != axes.split(',').count() || shape.contains(&0) {
         return Err(Problem::in_file(path, format_args!("its shape is {}", shown(shape)))
-            .expected(format_args!("{axes}, at least 1 of each")));
+            .expected(format_args!("{axes}, at least 1 of each"))
+            .remedy("save it with array.reshape(…)"));
     }
 
     let item = if dtype.ends_with('1') {

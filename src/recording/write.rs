@@ -13,9 +13,43 @@ use std::path::Path;
 /// `folder` is there already or cannot be written; the recording would be refused when read (its codes are checked
 /// against the `camera.toml` beside `folder`, too).
 pub fn write_recording(recording: &Recording, folder: &Path) -> Result<()> {
-    if folder.symlink_metadata().is_ok() {
-        return Err(Problem::in_file(folder, "is there already").expected("a new folder"));
+    write(recording, None, folder)
+}
+
+/// Writes `recording` as the new folder `folder`, whole or not at all, with `camera` as a `camera.toml` of its own.
+///
+/// # Errors
+/// As [`write_recording`].
+pub fn write_recording_with_camera(recording: &Recording, camera: &Camera, folder: &Path) -> Result<()> {
+    write(recording, Some(camera), folder)
+}
+
+/// Writes `recordings` and their `camera`, where it is known, as the new campaign `folder`, whole or not at all; each is a
+/// folder called as the recording's name.
+///
+/// # Errors
+/// As [`write_recording`].
+pub fn write_campaign(recordings: &[Recording], camera: Option<&Camera>, folder: &Path) -> Result<()> {
+    refuse_present(folder)?;
+    let staging = Staging::beside(folder)?;
+    if let Some(camera) = camera {
+        write_camera(camera, staging.path())?;
     }
+    for recording in recordings {
+        write_recording(recording, &staging.path().join(&recording.name))?;
+    }
+    staging.publish()
+}
+
+fn refuse_present(folder: &Path) -> Result<()> {
+    match folder.symlink_metadata() {
+        Ok(_) => Err(Problem::in_file(folder, "is there already").expected("a new folder")),
+        Err(_) => Ok(()),
+    }
+}
+
+fn write(recording: &Recording, own: Option<&Camera>, folder: &Path) -> Result<()> {
+    refuse_present(folder)?;
     let staging = Staging::beside(folder)?;
     staging.write_text("recording.toml", &description::write(recording))?;
     let text = |name: &str, rows: Vec<Vec<String>>| {
@@ -40,7 +74,13 @@ pub fn write_recording(recording: &Recording, folder: &Path) -> Result<()> {
         let ones = Numbers::codes(1, mask.iter().map(|&sees| sees.into()));
         array("mask.npy", &[geometry.height, geometry.width], ones)?;
     }
-    verify(&staging, folder)?;
+    match own {
+        Some(camera) => {
+            staging.write_text("camera.toml", &camera.to_toml())?;
+            readable(&staging, folder)?;
+        }
+        None => verify(&staging, folder)?,
+    }
     staging.publish()
 }
 
@@ -50,12 +90,17 @@ fn verify(staging: &Staging, folder: &Path) -> Result<()> {
     if let Some(camera) = &camera {
         staging.write_text("camera.toml", &camera.to_toml())?;
     }
-    let read = Recording::open(staging.path());
+    let read = readable(staging, folder);
     if camera.is_some() {
         let path = staging.path().join("camera.toml");
         fs::remove_file(&path).map_err(|error| Problem::io(&path, "remove", &error))?;
     }
-    read.map(drop).map_err(|problem| {
+    read
+}
+
+/// What has been written can be read, with the camera that lies beside it.
+fn readable(staging: &Staging, folder: &Path) -> Result<()> {
+    Recording::open(staging.path()).map(drop).map_err(|problem| {
         Problem::in_file(folder, format_args!("the recording would be refused when read: {problem}"))
     })
 }
