@@ -21,8 +21,8 @@ pub struct Course {
     pub frame_times_s: Option<Vec<f64>>,
 }
 
-/// Where a dark frame has no position, m. No light comes from there.
-const DARK_POSITION_M: f64 = 1.0;
+/// Where a frame has no position, m: a dark one, of which no light comes, or one of a scene that stands still.
+const NO_POSITION_M: f64 = 1.0;
 
 impl Course {
     /// The course of `recording`.
@@ -30,14 +30,7 @@ impl Course {
     /// # Errors
     /// A set with light and without a position, of which nothing can be simulated.
     pub fn of(recording: &Recording) -> Result<Self> {
-        let course = Self {
-            kind: recording.kind,
-            frequency_hz: recording.frequency_hz,
-            steps_rad: recording.steps_rad.clone(),
-            frame_period_s: recording.frame_period_s,
-            sets: recording.sets.clone(),
-            frame_times_s: recording.frame_times_s.clone(),
-        };
+        let course = Self::still(recording);
         match course.sets.iter().position(|row| row.position_m.is_none() && course.lit()) {
             None => Ok(course),
             Some(set) => Err(Problem::in_file(
@@ -46,6 +39,18 @@ impl Course {
             )
             .expected("the target's distance in m, in every set that has light")
             .remedy("leave the set out, or set the recording's kind to dark")),
+        }
+    }
+
+    /// The course of a `recording` whose sets need no position: of a scene that stands still, wherever it is.
+    pub fn still(recording: &Recording) -> Self {
+        Self {
+            kind: recording.kind,
+            frequency_hz: recording.frequency_hz,
+            steps_rad: recording.steps_rad.clone(),
+            frame_period_s: recording.frame_period_s,
+            sets: recording.sets.clone(),
+            frame_times_s: recording.frame_times_s.clone(),
         }
     }
 
@@ -86,7 +91,7 @@ impl Course {
             frame_period_s: self.frame_period_s,
             step_rad: self.steps_rad[frame],
             offset_rad: row.phase_offset_rad,
-            position_m: row.position_m.unwrap_or(DARK_POSITION_M),
+            position_m: row.position_m.unwrap_or(NO_POSITION_M),
             velocity_m_s: row.velocity_m_s,
             frequency_hz: self.frequency_hz,
             lit: self.lit(),

@@ -26,6 +26,13 @@ pub struct View<'a> {
     pub ranges: &'a Ranges,
 }
 
+impl View<'_> {
+    /// Whether a pixel's phase and amplitude are looked at: where the target moves, and everywhere where nothing does.
+    fn tells(&self, pixel: usize) -> bool {
+        self.ranges.is_still || self.pixels.target[pixel]
+    }
+}
+
 /// A coordinate.
 pub struct Coordinate {
     /// Its name in a verdict.
@@ -192,7 +199,7 @@ pub const COORDINATES: [Coordinate; 11] = [
         fill: |view| {
             let light: Vec<f64> = amplitude_dn(view).into_iter().map(|dn| dn.max(1e-6).ln()).collect();
             let ends = view.ranges.ln_amplitude;
-            by_pixel(view, LIGHTS, |pixel| match view.pixels.target[pixel] {
+            by_pixel(view, LIGHTS, |pixel| match view.tells(pixel) {
                 true => hats(within(light[pixel], ends), LIGHTS).to_vec(),
                 false => Vec::new(),
             })
@@ -243,7 +250,7 @@ fn phase(view: &View) -> Acting {
     let count = view.frame.base.len();
     let amplitude = amplitude_dn(view);
     let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; 6 * CYCLES];
-    for pixel in (0..count).filter(|&pixel| view.pixels.target[pixel]) {
+    for pixel in (0..count).filter(|&pixel| view.tells(pixel)) {
         let range_m = position_m * view.pixels.obliquity[pixel];
         let phase =
             phase_rad(range_m, moment.frequency_hz) + view.pixels.phase_rad[pixel] - moment.offset_rad;

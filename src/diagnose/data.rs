@@ -4,7 +4,8 @@ use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
 use crate::physics::{Active, Effect, Moment, effects};
 use crate::problem::{Problem, Result};
-use crate::recording::{Camera, Recording};
+use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, Recording};
+use serde::Serialize;
 
 /// A recording's frames.
 #[derive(Debug, Clone)]
@@ -34,8 +35,36 @@ pub struct Data {
     pub cut_bits: u32,
     /// Effects that may be found beside those of the registry.
     pub library: Vec<&'static Effect>,
+    /// What was taken for granted, as no file says it.
+    pub assumed: Assumed,
     /// Whether there is a recording without the camera's light.
     has_dark: bool,
+}
+
+/// What recordings may leave out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Assumed {
+    /// There is no camera.toml: no pedestal, a sinusoidal correlation, and noise as the recordings show it.
+    pub camera: bool,
+    /// No set has a position: the scene stands still, and each pixel sees its own part of it.
+    pub still_scene: bool,
+}
+
+/// What is taken for the camera of `recordings` that come without a description.
+fn assumed_camera(recordings: &[Recording], first: &Recording) -> Camera {
+    Camera {
+        geometry: first.geometry(),
+        adc_bits: recordings.iter().map(Recording::adc_bits).max().unwrap_or(16),
+        pedestal_dn: 0.0,
+        gain_e_per_dn: 1.0,
+        read_noise_e: 1.0,
+        // Rays that are parallel.
+        focal_length_px: 1e9,
+        correlation_amplitude: vec![1.0],
+        correlation_phase_rad: vec![0.0],
+        included_physics: vec![AXIAL_MOTION.to_owned(), INVERSE_SQUARE_FALLOFF.to_owned()],
+        effects: Vec::new(),
+    }
 }
 
 /// Above so many codes below full scale a sample is clipped, or about to be.
@@ -52,20 +81,22 @@ impl Data {
                 Problem::at("diagnosis", "no recording").expected("a recording, or a campaign of recordings")
             );
         };
-        let Some(camera) = first.camera.clone() else {
-            return Err(Problem::in_file(&first.folder, "has no camera.toml")
-                .expected("what the simulation of this camera knows and includes, beside the recordings")
-                .remedy("write one: sensor, correlation, physics"));
+        let camera = first.camera.clone().unwrap_or_else(|| assumed_camera(recordings, first));
+        let has_position = |recording: &Recording| recording.sets.iter().any(|row| row.position_m.is_some());
+        let assumed = Assumed {
+            camera: first.camera.is_none(),
+            still_scene: !recordings.iter().any(has_position),
         };
         let geometry = first.geometry();
-        let target: Vec<bool> = (0..geometry.pixels()).map(|pixel| first.sees_target(pixel)).collect();
+        let sees_target = |pixel| !assumed.still_scene && first.sees_target(pixel);
+        let target: Vec<bool> = (0..geometry.pixels()).map(sees_target).collect();
         let mut takes = Vec::new();
         for recording in recordings {
             if recording.geometry() != geometry || camera.geometry != geometry {
                 return Err(Problem::in_file(&recording.folder, "has another number of pixels")
                     .expected(format_args!("{} x {}", geometry.width, geometry.height)));
             }
-            let course = Course::of(recording)?;
+            let course = if assumed.still_scene { Course::still(recording) } else { Course::of(recording)? };
             let full_scale = camera.full_scale();
             let signal = |&code: &u32| match code {
                 0 => f32::NAN,
@@ -83,7 +114,22 @@ impl Data {
         let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
         let union = recordings.iter().flat_map(|r| r.raw.codes()).fold(0, |union, code| union | code);
         let cut_bits = if union == 0 { 0 } else { union.trailing_zeros() };
-        Ok(Self { camera, takes, target, cut_bits, library, has_dark })
+        Ok(Self { camera, takes, target, cut_bits, library, assumed, has_dark })
+    }
+
+    /// The same with only those samples of which `counts` (number of the frame over all recordings, pixel) is true.
+    pub fn only(&self, counts: impl Fn(usize, usize) -> bool) -> Self {
+        let mut data = self.clone();
+        let pixels = self.pixels();
+        let frames = data.takes.iter_mut().flat_map(|take| take.signal_dn.chunks_mut(pixels));
+        for (frame, signals) in frames.enumerate() {
+            for (pixel, signal) in signals.iter_mut().enumerate() {
+                if !counts(frame, pixel) {
+                    *signal = f32::NAN;
+                }
+            }
+        }
+        data
     }
 
     /// All sets: recording, and number of the set within it.

@@ -106,16 +106,18 @@ fn start(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
 }
 
 /// A background that never moves does not tell its constant light from the ambient light: it is given the target's usual ratio of
-/// constant light to amplitude, as far as there is so much light.
+/// constant light to amplitude, as far as there is so much light. Where nothing moves, all light is taken for the camera's own.
 fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
     let mut ratios: Vec<f64> = (0..data.pixels())
         .filter(|&pixel| data.target[pixel] && numbers[0][pixel] > 0.0)
         .map(|pixel| numbers[2][pixel] / numbers[0][pixel])
         .collect();
     ratios.sort_by(f64::total_cmp);
-    let ratio = ratios.get(ratios.len() / 2).copied().unwrap_or(0.0).max(0.0);
+    let ratio = ratios.get(ratios.len() / 2).copied().unwrap_or(f64::INFINITY).max(0.0);
     for pixel in (0..data.pixels()).filter(|&pixel| !data.tells_constant(pixel)) {
-        let constant = (ratio * numbers[0][pixel]).min(numbers[3][pixel].max(0.0));
+        // Without any light there is none to split.
+        let share = if numbers[0][pixel] > 0.0 { ratio * numbers[0][pixel] } else { 0.0 };
+        let constant = share.min(numbers[3][pixel].max(0.0));
         numbers[2][pixel] = constant;
         numbers[3][pixel] -= constant;
     }

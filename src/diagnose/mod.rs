@@ -14,6 +14,7 @@ mod judge;
 mod library;
 mod lines;
 mod location;
+mod noise;
 mod pieces;
 mod profiles;
 mod ranges;
@@ -22,7 +23,7 @@ mod settle;
 mod verdict;
 
 pub use camera::camera_with;
-pub use data::{Data, Take};
+pub use data::{Assumed, Data, Take};
 pub use fit::Fit;
 pub use gram::Noise;
 pub use held_out::{Agreement, HeldOut};

@@ -138,7 +138,7 @@ impl Profiles {
             }
             self.pixels[pixel].0 += residual * residual;
             self.pixels[pixel].1 += 1;
-            if !data.target[pixel] {
+            if !(ranges.is_still || data.target[pixel]) {
                 continue;
             }
             let sample = Sample { data, ranges, fit, whitened, pixel };

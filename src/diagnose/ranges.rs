@@ -9,6 +9,8 @@ use crate::physics::{Moment, Pixels};
 pub struct Ranges {
     /// The sensor's pixels.
     pub geometry: Geometry,
+    /// Whether nothing moves.
+    pub is_still: bool,
     /// Position of the target plane, m.
     pub position_m: (f64, f64),
     /// Greatest speed, m/s.
@@ -39,12 +41,14 @@ impl Ranges {
             let range_m = pixels.obliquity[pixel];
             (pixels.amplitude_1m_dn[pixel].max(1e-3) / (range_m * range_m)).ln()
         };
-        let targets = (0..pixels.count()).filter(|&pixel| pixels.target[pixel]);
+        let is_still = data.assumed.still_scene;
+        let targets = (0..pixels.count()).filter(|&pixel| is_still || pixels.target[pixel]);
         let at_1m = ends(&mut targets.map(light));
         let schemes = data.schemes();
         let first = |frames: usize| schemes.iter().take_while(|&&other| other < frames).sum();
         Self {
             geometry: data.geometry(),
+            is_still,
             position_m,
             speed_m_s: moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max),
             duration_s: data.takes.iter().map(|t| t.moments.last().map_or(0.0, |m| m.time_s)).collect(),

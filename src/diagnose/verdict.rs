@@ -3,7 +3,9 @@
 use super::data::Data;
 use super::fit::unfitted;
 use super::held_out::{HeldOut, held_out};
+use super::gram::Noise;
 use super::judge::{Judgement, Place, Verdict, judge};
+use super::noise::measured;
 use super::pieces::Piece;
 use super::search::Named;
 use super::settle::{outlying, with_mask};
@@ -136,8 +138,9 @@ pub struct Smallest {
 /// What the recordings themselves say of mask and sets comes first: pixels that see something else than the mask has, and sets that
 /// are unlike their neighbours.
 pub fn diagnose(data: &Data) -> Diagnosis {
-    let noise = stated_noise(data);
-    let (data, moved) = with_mask(data, noise);
+    let noise = noise_of(data);
+    // A scene that stands still has no mask.
+    let (data, moved) = if data.assumed.still_scene { (data.clone(), 0) } else { with_mask(data, noise) };
     let baseline = unfitted(&data, noise);
     let outlying = outlying(&baseline.series);
     let left_out = outlying.len();
@@ -155,6 +158,11 @@ pub fn diagnose(data: &Data) -> Diagnosis {
     answer.provenance["sets_left_out"] = json!(left_out);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     Diagnosis { judgement, held_out, answer }
+}
+
+/// The noise that the camera's description gives, or, without one, what the recordings show.
+fn noise_of(data: &Data) -> Noise {
+    if data.assumed.camera { measured(data, &unfitted(data, stated_noise(data))) } else { stated_noise(data) }
 }
 
 /// The verdict's word.
@@ -223,6 +231,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
                 "coordinate": place.coordinate, "shape": place.shape, "ln_bayes_factor": place.ln_bayes, "chi2": place.chi2.0,
             })).collect::<Vec<_>>(),
             "samples": found.baseline.samples,
+            "assumed": data.assumed,
             "noise": {"floor_dn2": judgement.noise.floor, "slope_dn": judgement.noise.slope,
                       "relative_squared": judgement.noise.square},
             "encoder_sigma_m": judgement.fit.jitter_m2.sqrt(),
