@@ -10,7 +10,7 @@ const BY_NAME: [(&str, &str); 2] =
 
 /// The camera of `data`, with the effects that `judgement` asserts and their fitted values.
 pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
-    let mut camera = data.camera.clone();
+    let mut camera = data.described.clone();
     let named = |name: &str| judgement.named.iter().any(|named| named.name == name);
     for piece in judgement.fit.pieces.iter().filter(|piece| named(piece.effect.name)) {
         if let Some((_, included)) = BY_NAME.iter().find(|(name, _)| *name == piece.effect.name) {

@@ -1,5 +1,6 @@
 //! A campaign as the fit sees it: frames above the pedestal, which samples count, and what the encoder said of each.
 
+use super::grid::Grid;
 use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
 use crate::physics::{Active, Effect, Moment, effects};
@@ -25,8 +26,12 @@ pub struct Take {
 /// Recordings of one camera.
 #[derive(Debug, Clone)]
 pub struct Data {
-    /// What the simulation of the camera includes.
+    /// What the simulation of the camera includes, with the pixels that are looked at.
     pub camera: Camera,
+    /// The same, as it was described.
+    pub described: Camera,
+    /// The pixels that are looked at.
+    pub grid: Grid,
     /// The recordings, by name.
     pub takes: Vec<Take>,
     /// Which pixels see the target.
@@ -88,8 +93,10 @@ impl Data {
             still_scene: !recordings.iter().any(has_position),
         };
         let geometry = first.geometry();
-        let sees_target = |pixel| !assumed.still_scene && first.sees_target(pixel);
-        let target: Vec<bool> = (0..geometry.pixels()).map(sees_target).collect();
+        let grid = Grid::of(geometry);
+        let pixels = grid.pixels();
+        let sees_target = |&pixel: &usize| !assumed.still_scene && first.sees_target(pixel);
+        let target: Vec<bool> = pixels.iter().map(sees_target).collect();
         let mut takes = Vec::new();
         for recording in recordings {
             if recording.geometry() != geometry || camera.geometry != geometry {
@@ -98,7 +105,7 @@ impl Data {
             }
             let course = if assumed.still_scene { Course::still(recording) } else { Course::of(recording)? };
             let full_scale = camera.full_scale();
-            let signal = |&code: &u32| match code {
+            let signal = |code: u32| match code {
                 0 => f32::NAN,
                 code if code + CLIPPED_DN > full_scale => f32::NAN,
                 code => (f64::from(code) - camera.pedestal_dn) as f32,
@@ -108,13 +115,18 @@ impl Data {
                 moments: course.moments(),
                 frames: course.frames(),
                 included: camera_effects(&camera, &recording.name)?,
-                signal_dn: recording.raw.codes().iter().map(signal).collect(),
+                signal_dn: recording
+                    .raw
+                    .codes()
+                    .chunks_exact(geometry.pixels())
+                    .flat_map(|frame| pixels.iter().map(|&pixel| signal(frame[pixel])))
+                    .collect(),
             });
         }
         let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
         let union = recordings.iter().flat_map(|r| r.raw.codes()).fold(0, |union, code| union | code);
         let cut_bits = if union == 0 { 0 } else { union.trailing_zeros() };
-        Ok(Self { camera, takes, target, cut_bits, library, assumed, has_dark })
+        Ok(Self { camera: grid.camera(camera.clone()), described: camera, grid, takes, target, cut_bits, library, assumed, has_dark })
     }
 
     /// The same with only those samples of which `counts` (number of the frame over all recordings, pixel) is true.
@@ -148,7 +160,7 @@ impl Data {
         frames
     }
 
-    /// The sensor's pixels.
+    /// The pixels that are looked at.
     pub fn geometry(&self) -> Geometry {
         self.camera.geometry
     }

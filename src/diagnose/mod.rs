@@ -9,6 +9,7 @@ mod data;
 mod evidence;
 mod fit;
 mod gram;
+mod grid;
 mod held_out;
 mod judge;
 mod library;

@@ -98,6 +98,9 @@ const LINES: [(&str, LineShape); 2] = [
     ("encoder_cyclic", |series| series.in_position().map(|line| (line.frequency.recip(), line.looked))),
 ];
 
+/// Effects that a pixel's neighbours make: they cannot be seen where those are not looked at.
+const OF_NEIGHBOURS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lateral_motion"];
+
 /// All candidates that `data` could need: those of the registry that its camera does not include.
 pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
     let included = |effect: &Effect| {
@@ -109,7 +112,8 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         .chain(&data.library)
         .copied()
         .filter(|effect| {
-            effect.chance == Chance::None && effect.name != effects::FIXED_POINT && !included(effect)
+            let is_seen = data.grid.every == 1 || !OF_NEIGHBOURS.contains(&effect.name);
+            effect.chance == Chance::None && effect.name != effects::FIXED_POINT && is_seen && !included(effect)
         })
         .map(|effect| {
             let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));

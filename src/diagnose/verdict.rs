@@ -232,6 +232,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
             })).collect::<Vec<_>>(),
             "samples": found.baseline.samples,
             "assumed": data.assumed,
+            "every_so_many_rows_and_columns": data.grid.every,
             "noise": {"floor_dn2": judgement.noise.floor, "slope_dn": judgement.noise.slope,
                       "relative_squared": judgement.noise.square},
             "encoder_sigma_m": judgement.fit.jitter_m2.sqrt(),
