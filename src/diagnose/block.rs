@@ -130,7 +130,8 @@ impl pulp::NullaryFnOnce for Mix<'_> {
         let pixels = self.sums.len() / OWN;
         for (pixel, sums) in self.sums.chunks_exact_mut(OWN).enumerate() {
             let mut total = [0.0; OWN];
-            let frames = self.own[pixel..].iter().step_by(pixels).zip(self.values[pixel..].iter().step_by(pixels));
+            let frames =
+                self.own[pixel..].iter().step_by(pixels).zip(self.values[pixel..].iter().step_by(pixels));
             for (own, value) in frames {
                 for (total, own) in total.iter_mut().zip(own) {
                     *total += own * value;

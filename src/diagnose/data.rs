@@ -88,10 +88,8 @@ impl Data {
         };
         let camera = first.camera.clone().unwrap_or_else(|| assumed_camera(recordings, first));
         let has_position = |recording: &Recording| recording.sets.iter().any(|row| row.position_m.is_some());
-        let assumed = Assumed {
-            camera: first.camera.is_none(),
-            still_scene: !recordings.iter().any(has_position),
-        };
+        let assumed =
+            Assumed { camera: first.camera.is_none(), still_scene: !recordings.iter().any(has_position) };
         let geometry = first.geometry();
         let grid = Grid::of(geometry);
         let pixels = grid.pixels();
@@ -126,7 +124,17 @@ impl Data {
         let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
         let union = recordings.iter().flat_map(|r| r.raw.codes()).fold(0, |union, code| union | code);
         let cut_bits = if union == 0 { 0 } else { union.trailing_zeros() };
-        Ok(Self { camera: grid.camera(camera.clone()), described: camera, grid, takes, target, cut_bits, library, assumed, has_dark })
+        Ok(Self {
+            camera: grid.camera(camera.clone()),
+            described: camera,
+            grid,
+            takes,
+            target,
+            cut_bits,
+            library,
+            assumed,
+            has_dark,
+        })
     }
 
     /// The same with only those samples of which `counts` (number of the frame over all recordings, pixel) is true.
@@ -175,6 +183,13 @@ impl Data {
     /// Whether `pixel` tells its constant light from the ambient light: where the target moves, or the camera's light is once off.
     pub fn tells_constant(&self, pixel: usize) -> bool {
         self.target[pixel] || self.has_dark
+    }
+
+    /// The same camera with other recordings.
+    #[must_use]
+    pub fn with_takes(&self, takes: Vec<Take>) -> Self {
+        let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
+        Self { takes, has_dark, ..self.clone() }
     }
 
     /// The same with these sets (numbers over all recordings) left out; nothing where there are none.

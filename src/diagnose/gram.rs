@@ -1,8 +1,8 @@
 //! One pass over the data: the normal equations of all columns, with the pixels' own numbers projected out.
 
+use super::block::{Block, Rows};
 use super::columns::{Frame, OWN, Tangents};
 use super::coordinates::Acting;
-use super::block::{Block, Rows};
 use super::data::Data;
 use super::evidence::of_variance;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
@@ -169,7 +169,8 @@ impl Gram {
                             let frame = tangents.frame(take, index);
                             let (roots, residual) = whiten(data, take, index, &frame.base, noise);
                             let (roots, residual) = (&roots[..], &residual[..]);
-                            let whitened = Whitened { take, set: number, index, frame: &frame, roots, residual };
+                            let whitened =
+                                Whitened { take, set: number, index, frame: &frame, roots, residual };
                             visited = visit(visited, &whitened);
                             rows.push(data, &whitened);
                             let filled = fill(take, index, &frame);
@@ -269,9 +270,8 @@ fn inverse(own: &Matrix4<f64>) -> Matrix4<f64> {
 
 /// The variance of the encoder's reading that explains the sets' common position errors best, m²: `(sum, square)` a set.
 fn jitter(sets: &[(f64, f64)]) -> f64 {
-    let evidence = |variance: f64| -> f64 {
-        sets.iter().map(|&(sum, square)| of_variance(variance, sum, square)).sum()
-    };
+    let evidence =
+        |variance: f64| -> f64 { sets.iter().map(|&(sum, square)| of_variance(variance, sum, square)).sum() };
     // From a micrometre to half a millimetre: more is no encoder's noise, but something that must be named.
     let variances = (0..=60).map(|step| (1e-6 * 500f64.powf(f64::from(step) / 60.0)).powi(2));
     variances.fold((0.0, 0.0), |best, v| if evidence(v) > best.1 { (v, evidence(v)) } else { best }).0

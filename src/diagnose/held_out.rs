@@ -92,7 +92,8 @@ fn predicted(data: &Data, fit: &Fit, noise: Noise, fold: usize) -> Vec<(usize, S
     let (pixels, pieces) = improved(data, fit, noise, &|set| !is_held(set));
     let (tangents, _) = Tangents::new(data, &pixels, &pieces, &[]);
     let sets = data.sets().into_par_iter().enumerate().filter(|(number, _)| is_held(*number));
-    sets.filter_map(|(number, (take, set))| Some((number, seen(data, &tangents, noise, take, set)?))).collect()
+    sets.filter_map(|(number, (take, set))| Some((number, seen(data, &tangents, noise, take, set)?)))
+        .collect()
 }
 
 /// What a set shows; nothing where it was left out.

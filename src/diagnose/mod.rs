@@ -15,6 +15,7 @@ mod judge;
 mod library;
 mod lines;
 mod location;
+mod next;
 mod noise;
 mod pieces;
 mod profiles;

@@ -113,7 +113,10 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         .copied()
         .filter(|effect| {
             let is_seen = data.grid.every == 1 || !OF_NEIGHBOURS.contains(&effect.name);
-            effect.chance == Chance::None && effect.name != effects::FIXED_POINT && is_seen && !included(effect)
+            effect.chance == Chance::None
+                && effect.name != effects::FIXED_POINT
+                && is_seen
+                && !included(effect)
         })
         .map(|effect| {
             let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));

@@ -2,9 +2,10 @@
 
 use super::data::Data;
 use super::fit::unfitted;
-use super::held_out::{HeldOut, held_out};
 use super::gram::Noise;
+use super::held_out::{HeldOut, held_out};
 use super::judge::{Judgement, Place, Verdict, judge};
+use super::next::next;
 use super::noise::measured;
 use super::pieces::Piece;
 use super::search::Named;
@@ -214,7 +215,14 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
             share: judgement.remainder,
             coordinate: judgement.left.first().filter(|_| !is_clean).map(|place| place.coordinate),
         },
-        next_recording: Vec::new(),
+        next_recording: next(data, judgement)
+            .into_iter()
+            .map(|next| NextRecording {
+                to_separate: next.between.to_vec(),
+                what: next.what,
+                expected_rho: rounded(next.rho),
+            })
+            .collect(),
         invisible: found.invisible.iter().map(|&name| invisible(name)).collect(),
         smallest_detectable: smallest.collect(),
         provenance: json!({
