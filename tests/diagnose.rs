@@ -335,3 +335,45 @@ fn practice_campaigns_come_out_as_labelled() {
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
+
+/// Two sweeps without camera.toml, positions and mask: the simulated camera's third harmonic (0.024129, -0.2421 rad) is none of the
+/// sinusoidal camera that is taken for granted then.
+#[test]
+fn recordings_without_camera_and_positions_are_diagnosed() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("sweeps");
+    let out = out.to_str().unwrap();
+    let recordings = ["--recordings", "four-sweep,wdft-sweep"];
+    let (good, text) =
+        vuris(&[&["simulate", "--size", "12x10", "--seed", "3", "--out", out], &recordings[..]].concat());
+    assert!(good, "{text}");
+    let out = Path::new(out);
+    std::fs::remove_file(out.join("camera.toml")).unwrap();
+    for recording in ["four-sweep", "wdft-sweep"] {
+        std::fs::remove_file(out.join(recording).join("mask.npy")).unwrap();
+        let sets = out.join(recording).join("sets.csv");
+        let text = std::fs::read_to_string(&sets).unwrap();
+        let column = text.lines().next().unwrap().split(',').position(|name| name == "position_m").unwrap();
+        let without = |(number, line): (usize, &str)| {
+            let mut cells: Vec<&str> = line.split(',').collect();
+            if number > 0 {
+                cells[column] = "";
+            }
+            cells.join(",") + "\n"
+        };
+        std::fs::write(&sets, text.lines().enumerate().map(without).collect::<String>()).unwrap();
+    }
+    let verdict = verdict(out);
+    assert_eq!(names(&verdict), ["correlation_harmonics"], "{verdict:#}");
+    assert_eq!(verdict["provenance"]["assumed"]["camera"], true);
+    assert_eq!(verdict["provenance"]["assumed"]["still_scene"], true);
+    for (name, expected) in [("cosine_3", 0.024129 * 0.2421f64.cos()), ("sine_3", 0.024129 * 0.2421f64.sin())]
+    {
+        let (value, sigma) = parameter(&verdict, name);
+        assert!((value - expected).abs() < 4.0 * sigma, "{name}: {value} +- {sigma}, not {expected}");
+    }
+    // The electrons a code and the read noise that the recordings were made with: 12, and 36.
+    let noise = &verdict["provenance"]["noise"];
+    let slope = noise["slope_dn"].as_f64().unwrap();
+    assert!((slope - 1.0 / 12.0).abs() < 0.03, "{noise}");
+}

@@ -34,7 +34,7 @@ pub use library::library;
 pub use location::{Located, Location};
 pub use profiles::{Point, Profile};
 pub use search::{Found, Named};
-pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, diagnose, word};
+pub use verdict::{Answer, Diagnosis, EffectRow, HeldOutRow, LocatedRow, diagnose};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise.
 pub fn stated_noise(data: &Data) -> Noise {

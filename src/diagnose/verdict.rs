@@ -96,6 +96,8 @@ pub struct HeldOutRow {
     pub chi2_per_dof_after: f64,
     pub rms_dn_before: f64,
     pub rms_dn_after: f64,
+    pub frame_mean_rms_dn_before: f64,
+    pub frame_mean_rms_dn_after: f64,
     pub distance_rms_m_before: f64,
     pub distance_rms_m_after: f64,
     pub z: f64,
@@ -167,7 +169,7 @@ fn noise_of(data: &Data) -> Noise {
 }
 
 /// The verdict's word.
-pub fn word(verdict: Verdict) -> &'static str {
+fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Clean => "clean",
         Verdict::Explained => "explained",
@@ -199,6 +201,8 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
             chi2_per_dof_after: held_out.after.chi2_per_dof,
             rms_dn_before: held_out.before.rms_dn,
             rms_dn_after: held_out.after.rms_dn,
+            frame_mean_rms_dn_before: held_out.before.frame_mean_rms_dn,
+            frame_mean_rms_dn_after: held_out.after.frame_mean_rms_dn,
             distance_rms_m_before: held_out.before.distance_rms_m,
             distance_rms_m_after: held_out.after.distance_rms_m,
             z: held_out.z,

@@ -1,6 +1,6 @@
 //! A diagnosis in a screenful.
 
-use crate::diagnose::{Answer, Diagnosis, EffectRow};
+use crate::diagnose::{Answer, Diagnosis, EffectRow, HeldOutRow};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -37,15 +37,16 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
     let _ = writeln!(
         text,
         "On {} sets that the fit has not seen: chi squared a sample {:.4} -> {:.4} (z {:.1}), raw frames {:.3} -> {:.3} DN RMS,\n  \
-         distance of a set {:.2} -> {:.2} mm RMS",
+         their means {:.3} -> {:.3} DN RMS{}",
         held.sets,
         held.chi2_per_dof_before,
         held.chi2_per_dof_after,
         held.z,
         held.rms_dn_before,
         held.rms_dn_after,
-        1e3 * held.distance_rms_m_before,
-        1e3 * held.distance_rms_m_after
+        held.frame_mean_rms_dn_before,
+        held.frame_mean_rms_dn_after,
+        distance(held)
     );
     if let Some(coordinate) = answer.remainder.coordinate {
         let share = 100.0 * answer.remainder.share;
@@ -54,10 +55,11 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
     for next in &answer.next_recording {
         let _ = writeln!(
             text,
-            "To separate {}: {} (expected {:.0} standard deviations)",
+            "To separate {}: {} (expected {:.1} standard deviations{})",
             next.to_separate.join(" from "),
             next.what,
-            next.expected_rho
+            next.expected_rho,
+            if next.expected_rho < ENOUGH_RHO { ": none that is proposed here is enough" } else { "" }
         );
     }
     if !answer.invisible.is_empty() {
@@ -65,6 +67,19 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         let _ = writeln!(text, "These recordings cannot show: {}", names.join(", "));
     }
     text
+}
+
+/// A recording that separates by less does not.
+const ENOUGH_RHO: f64 = 3.0;
+
+/// The error of a set's distance, where there is one.
+fn distance(held: &HeldOutRow) -> String {
+    if held.distance_rms_m_before == 0.0 {
+        return String::new();
+    }
+    let [before_mm, after_mm] =
+        [held.distance_rms_m_before, held.distance_rms_m_after].map(|metres| 1e3 * metres);
+    format!(", distance of a set {before_mm:.2} -> {after_mm:.2} mm RMS")
 }
 
 /// What was found, in one paragraph.
