@@ -95,6 +95,13 @@ pub const FAULTS: &[Fault] = &[
         " || (in_set && drain_busy_i && !behind)",
         "",
     ),
+    fault(
+        "framing",
+        "framing",
+        "what is outside a set waits for the drain",
+        "(in_set && drain_busy_i && !behind)",
+        "(drain_busy_i && !behind)",
+    ),
     fault("framing", "framing", "counter survives a reset", "      sets_discarded_q <= 32'd0;\n", ""),
     fault(
         "sums-1",
@@ -102,6 +109,14 @@ pub const FAULTS: &[Fault] = &[
         "sums of the last set",
         "term_first_q      <= first_frame_i",
         "term_first_q      <= 1'b0",
+    ),
+    fault(
+        "sums-1",
+        "accumulator",
+        "sums of a set that broke off",
+        "    term_first_q      <= first_frame_i;\n",
+        "    begin : broken\n      reg stale;\n      if (!rst_ni || drain_start_i) stale <= 1'b0;\n      \
+         else if (take_i && !first_frame_i) stale <= 1'b1;\n      term_first_q <= first_frame_i && !stale;\n    end\n",
     ),
     fault(
         "sums-1",

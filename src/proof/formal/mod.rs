@@ -9,11 +9,14 @@ mod engine;
 mod equal;
 mod fault;
 mod proof;
+mod table;
 
 pub use engine::Answer;
 pub(super) use engine::never;
 pub use fault::{FAULTS, Fault};
+pub(super) use proof::padding;
 pub use proof::{PROOFS, Proof};
+pub use table::{Record, table};
 
 use crate::artifact;
 use crate::problem::{Problem, Result};
@@ -64,17 +67,18 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
         rtl.iter().map(|file| file.path.clone()).filter(|path| path.ends_with(".v")).collect();
     let text = format!("{}{}", (proof.definitions)(pipeline), proof.text);
     let design = engine::Design { files, setup: (proof.setup)(pipeline), text };
+    let cover_clocks = (proof.cover_clocks)(pipeline);
     let mut findings = Vec::new();
     for (list, cover) in [("bad", false), ("seen", true)] {
         // A design with a fault need not be covered.
         for (number, what) in proof.names(list).into_iter().filter(|_| !cover || fault.is_none()) {
             let watch = format!("{list}[{number}]");
             let bounded = proof.bounded.iter().find(|&&(bounded, _)| bounded == number);
-            let bound = if cover { Some(proof.cover_clocks) } else { bounded.map(|&(_, clocks)| clocks) };
+            let bound = if cover { Some(cover_clocks) } else { bounded.map(|&(_, clocks)| clocks) };
             let mut answer = engine::ask(temporary.path(), &design, &watch, bound)?;
             // A violation may lie too deep for a proof, and yet be found in the clocks in which everything can happen.
             if fault.is_some() && answer == Answer::Undecided {
-                answer = engine::ask(temporary.path(), &design, &watch, Some(proof.cover_clocks))?;
+                answer = engine::ask(temporary.path(), &design, &watch, Some(cover_clocks))?;
             }
             findings.push(Finding { proof: proof.name, what, cover, answer });
             // One violation is enough.
@@ -84,6 +88,13 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
         }
     }
     Ok(findings)
+}
+
+/// Whether the Verilog of `pipeline` has the place of `fault`: another scheme has other sums.
+pub fn has_place(pipeline: &Pipeline, proof: &Proof, fault: &Fault) -> Result<bool> {
+    let pipeline = few_pixels(pipeline)?;
+    let mut rtl = (proof.rtl)(&pipeline)?;
+    Ok(fault.seed(&pipeline.prefix(), &mut rtl).is_ok())
 }
 
 /// The same core with the smallest sensor that a specification may have: a frame is over in eight clocks.
