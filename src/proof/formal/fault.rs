@@ -162,6 +162,14 @@ pub const FAULTS: &[Fault] = &[
         "s_axis_tvalid && !s_axis_tready",
         "!s_axis_tready",
     ),
+    fault("folded", "other_cordic", "a direction is lost", "directions_2[0] ^ sign_2}", "directions_2[0]}"),
+    fault(
+        "iterative",
+        "other_angle",
+        "a direction is lost",
+        "direction = direction_q ^ sign",
+        "direction = direction_q",
+    ),
     fault("folded", "other_cordic", "a vector overwrites one in the ring", "advance_i && !back", "advance_i"),
     fault(
         "iterative",

@@ -77,7 +77,7 @@ const fn sums_of_pixel(name: &'static str, definitions: fn(&Pipeline) -> String)
         purpose: "what drains for a pixel is the exact sum of weight times sample: no overflow, nothing stale, after sets that broke off too",
         text: include_str!("../../../formal/sums.sv"),
         rtl: |pipeline| {
-            short_sets(pipeline)?;
+            provable_sums(pipeline)?;
             core(pipeline)
         },
         definitions,
@@ -160,15 +160,29 @@ fn cover_of_results(pipeline: &Pipeline) -> u32 {
     8 * derived.frames_per_set as u32 + derived.latency_clocks + 120
 }
 
-/// Refuses sets that are too long for the proof of their sums.
-fn short_sets(pipeline: &Pipeline) -> Result<()> {
+/// Weights beyond which samples are multiplied: the observer would have to prove a multiplier again.
+const LARGEST_WEIGHT: i64 = 15;
+
+/// Refuses sums whose proof does not end.
+fn provable_sums(pipeline: &Pipeline) -> Result<()> {
     let frames = pipeline.derived().frames_per_set;
-    if frames <= MOST_FRAMES {
-        return Ok(());
+    let scheme = &pipeline.modulation.scheme;
+    let weights = [&scheme.in_phase, &scheme.quadrature, &scheme.offset];
+    let largest = weights.into_iter().flat_map(|weights| weights.iter()).map(|weight| weight.abs()).max();
+    let place = "the proof of the sums";
+    if frames > MOST_FRAMES {
+        return Err(Problem::at(place, format_args!("{frames} raw frames a set"))
+            .expected(format_args!("at most {MOST_FRAMES}: beyond, no answer comes within minutes"))
+            .remedy("prove the same specification with a smaller modulation.frames_per_step, or choose other proofs by --proof"));
     }
-    Err(Problem::at("the proof of the sums", format_args!("{frames} raw frames a set"))
-        .expected(format_args!("at most {MOST_FRAMES}: a deeper search does not end"))
-        .remedy("prove the same specification with a smaller modulation.frames_per_step, or leave these proofs out by --proof"))
+    if largest.is_some_and(|weight| weight > LARGEST_WEIGHT) {
+        return Err(Problem::at(place, format_args!("a weight of {}", largest.unwrap_or(0)))
+            .expected(format_args!(
+                "at most {LARGEST_WEIGHT}: products by weights of a table are not decided within minutes"
+            ))
+            .remedy("choose other proofs by --proof; `vuris verify` compares these sums bit by bit"));
+    }
+    Ok(())
 }
 
 fn sums(pipeline: &Pipeline, pixel: u32) -> String {
