@@ -146,8 +146,9 @@ fn bits((low, high): (i64, i64)) -> u32 {
     Word::holding(low, high).bits
 }
 
-/// Raw frames of a set beyond which the proof of its sums is not tried: every cover and every question is as deep as a set is long.
-const MOST_FRAMES: usize = 16;
+/// Raw frames of a set beyond which the proof of its sums is not tried: every question is as deep as a set is long. Five take half a minute
+/// a pixel on an idle machine; ten are not decided in five minutes.
+const MOST_FRAMES: usize = 8;
 
 /// A set of four pixels, and what it takes to drain and to begin another.
 fn cover_of_sums(pipeline: &Pipeline) -> u32 {
