@@ -93,7 +93,8 @@ module properties (
 
   // What the frame after this one must be.
   wire [5:0] after = number / PIXELS + 1;
-  wire [14:0] bad = {
+  wire [15:0] bad = {
+    rst_n && valid_i && !ready_o && !drain_start_o && !(start || (whole && beats != BEATS)), // 15 what is outside a set waits for no drain
     rst_n && frame_o && (next_first_o != (after == STEPS * `REPEATS)
                          || next_place_o != (next_first_o ? 0 : after / `REPEATS)), // 14 the frame that must come next is told
     rst_n && frame_o != (accepted && belongs && pixel == 0),                     // 13 the first pixel of a frame is marked

@@ -1,7 +1,8 @@
 // Properties of the sums: for one pixel, each in its own proof, what drains is the exact sum of weight times sample over all frames of
 // its set, computed here in words that cannot overflow; so no sum overflows, none is stale, and none is read before it is
 // written. Takes follow the framing's contract (proved of the framing): pixels come in order, four a frame, with any pauses,
-// and while sums drain only in the first frame and behind the drain.
+// and while sums drain only in the first frame and behind the drain. A set may break off anywhere, even when all of it has come: the
+// next take is then the first of a new set, in the same clock or later, and a drain that runs goes on.
 `default_nettype none
 module properties (
   input  wire                    clk,
@@ -10,10 +11,11 @@ module properties (
   input  wire [`SAMPLE_BITS-1:0] sample,
   input  wire [1:0]              address,
   input  wire                    end_set,
+  input  wire                    abort,
   input  wire                    advance,
   output wire                    watched
 );
-  localparam PIXELS = 4, FRAMES = `STEPS * `REPEATS, WIDE = 10;
+  localparam PIXELS = 4, FRAMES = `STEPS * `REPEATS, WIDE = `WIDE_BITS, FRAME_BITS = `FRAME_BITS;
 
   reg started = 1'b0;
   always @(posedge clk) started <= 1'b1;
@@ -22,29 +24,39 @@ module properties (
   // One pixel is watched.
   wire [1:0] pixel = 2'd`PIXEL;
 
-  // The frame that the stream is in, and the pixels that it has had.
-  reg [4:0] frame = 5'd0;
-  reg [2:0] next = 3'd0;
+  // The frame that the stream is in, and the pixels that it has had; where the set breaks off, from the beginning.
+  reg [FRAME_BITS-1:0] frame_q = {FRAME_BITS{1'b0}};
+  reg [2:0] next_q = 3'd0;
   reg       full = 1'b0;  // a set is complete and waits for its drain
+  wire [FRAME_BITS-1:0] frame = abort ? {FRAME_BITS{1'b0}} : frame_q;
+  wire [2:0] next = abort ? 3'd0 : next_q;
   wire      first_frame = frame == 0;
   wire      drain_busy;
   wire [2:0] drain_address;
-  wire allowed = !full && (!drain_busy || first_frame && drain_address > next);
+  wire allowed = (abort || !full) && (!drain_busy || first_frame && drain_address > next);
   wire taken   = rst_n && take && allowed;
-  wire starts  = rst_n && full && end_set && !drain_busy;
+  wire starts  = rst_n && full && end_set && !abort && !drain_busy;
   always @(posedge clk) begin
     if (!rst_n) begin
-      frame <= 5'd0;
-      next  <= 3'd0;
-      full  <= 1'b0;
+      frame_q <= {FRAME_BITS{1'b0}};
+      next_q  <= 3'd0;
+      full    <= 1'b0;
     end else begin
-      if (taken) next <= next == PIXELS - 1 ? 3'd0 : next + 3'd1;
+      next_q  <= !taken ? next : next == PIXELS - 1 ? 3'd0 : next + 3'd1;
+      frame_q <= frame;
+      if (starts || abort) full <= 1'b0;
       if (taken && next == PIXELS - 1) begin
-        frame <= frame == FRAMES - 1 ? 5'd0 : frame + 5'd1;
-        full  <= frame == FRAMES - 1;
+        frame_q <= frame == FRAMES - 1 ? {FRAME_BITS{1'b0}} : frame + 1'b1;
+        full    <= frame == FRAMES - 1;
       end
-      if (starts) full <= 1'b0;
     end
+  end
+
+  // Whether a set has broken off past its first frame, and whether sums of a later one are due: for the covers.
+  reg broken = 1'b0, mended = 1'b0;
+  always @(posedge clk) begin
+    broken <= rst_n && (broken || (abort && frame_q != 0));
+    mended <= rst_n && (mended || (starts && broken));
   end
 
   wire valid_o, first_o, last_o, saturated_o;
@@ -128,7 +140,10 @@ module properties (
     due && $signed(quadrature_o) != quadrature_due,                                      // 1 quadrature sum
     due && $signed(in_phase_o) != in_phase_due                                           // 0 in-phase sum
   };
-  wire [3:0] seen = {
+  wire [6:0] seen = {
+    due && mended,                                                                       // 6 sums of a set after one that broke off
+    taken && broken,                                                                     // 5 a take after a set that broke off
+    rst_n && abort && drain_busy && next_q != 0,                                         // 4 a set that breaks off while sums drain
     due && offset_due == `OFFSET_MAX,                                                    // 3 the largest offset
     due && in_phase_due == `IN_PHASE_MIN,                                                // 2 the least in-phase sum
     due && taken,                                                                        // 1 a take while sums drain

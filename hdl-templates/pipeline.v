@@ -225,13 +225,19 @@ module [[ prefix ]]_pipeline (
   );
 
 [%- if unwrapping %]
-  // Of the set that drains.
+  // Of the set that drains, and of the pixel whose sums are offered: that may be the last one of the set before.
+  reg drain_second_q;
+  reg drain_partner_q;
   reg sums_second_q;
   reg sums_partner_q;
   always @(posedge clk_i) begin
     if (drain_start) begin
-      sums_second_q  <= complete_second;
-      sums_partner_q <= complete_partner;
+      drain_second_q  <= complete_second;
+      drain_partner_q <= complete_partner;
+    end
+    if (sums_taken) begin
+      sums_second_q  <= drain_second_q;
+      sums_partner_q <= drain_partner_q;
     end
   end
 

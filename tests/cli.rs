@@ -120,7 +120,7 @@ fn help_names_every_command_and_every_option() {
                 "--fit-area <FILE>",
                 "--recommend",
                 "--error <ERROR>",
-                "--proved",
+                "--sampled",
                 "--add-noise <SHARE>",
                 "--amplitude-dn <DN>",
                 "--offset-dn <DN>",

@@ -111,6 +111,9 @@ fn mult18x18d() -> String {
 }
 
 fn take_the_ecp5s(artifacts: &mut Vec<Artifact>, change: &dyn Fn(String) -> String) {
+    let list = artifacts.iter().find(|artifact| artifact.path == "ecp5/files.f").unwrap();
+    let multipliers: Vec<&str> = list.text.lines().filter(|line| line.contains("multiplier")).collect();
+    assert_eq!(multipliers, ["ecp5/unit_poly_multiplier.v"]);
     let place = artifacts.iter().position(|artifact| artifact.path == "ecp5/unit_poly_multiplier.v").unwrap();
     let text = change(artifacts.remove(place).text + &mult18x18d());
     let portable =

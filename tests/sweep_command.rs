@@ -198,6 +198,16 @@ fn what_cannot_be_done_is_refused_with_the_way_out() {
     }
 }
 
+/// The specification's iterations are those of its own phase: another phase has its own.
+#[test]
+fn words_and_phases_are_swept_without_a_word_about_iterations() {
+    let home = home();
+    let text = run(home.path(), &["sweep", "--word", "12", "--phase-bits", "12", "--samples", "100"], &[]);
+    assert!(text.contains("p12") && text.contains("i13"), "{text}");
+    let own = run(home.path(), &["sweep", "--samples", "100"], &[]);
+    assert!(own.contains("p18") && own.contains("i19"), "{own}");
+}
+
 /// The value behind `name = ` in a specification.
 fn field(toml: &str, name: &str) -> u32 {
     let line = toml.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(" = ")).unwrap();
@@ -209,14 +219,16 @@ fn field(toml: &str, name: &str) -> u32 {
 fn a_recommendation_is_a_specification_that_holds_what_was_asked() {
     let home = home();
     let arguments = ["sweep", "--recommend", "--samples", "3000", "--spec", "vuris-four-frame"];
-    let toml = run(home.path(), &arguments, &["--error", "1mrad", "--proved"]);
+    let toml = run(home.path(), &arguments, &["--error", "1mrad"]);
     fs::write(home.path().join("small.toml"), &toml).unwrap();
     run(home.path(), &["generate", "--spec", "small.toml", "--out", "hardware"], &[]);
     let pipeline = Pipeline::parse("small.toml", &toml).unwrap();
     assert!(pipeline.derived().angle.budget().phase_rad() <= 1e-3);
-    assert!(toml.contains("proved for every vector"), "{toml}");
+    assert!(toml.contains("by the bound that is proved for every vector"), "{toml}");
+    assert!(toml.contains("fitted model, extrapolated"), "the unit gives a length: {toml}");
 
-    let relaxed = run(home.path(), &arguments, &["--error", "1mrad"]);
+    let relaxed = run(home.path(), &arguments, &["--error", "1mrad", "--sampled"]);
+    assert!(relaxed.contains("3000 drawn in each octave") && relaxed.contains("not proved"), "{relaxed}");
     assert!(field(&relaxed, "phase_bits") <= field(&toml, "phase_bits"));
     let exact = run(home.path(), &arguments, &["--error", "0.2mrad"]);
     assert!(field(&exact, "phase_bits") > field(&toml, "phase_bits"));
@@ -237,7 +249,7 @@ fn a_recommendation_is_a_specification_that_holds_what_was_asked() {
 fn an_angle_unit_by_itself_can_be_recommended() {
     let home = home();
     let arguments = ["sweep", "--recommend", "--samples", "2000", "--spec", "angle-16"];
-    let toml = run(home.path(), &arguments, &["--error", "2mm", "--frequency-hz", "100e6", "--proved"]);
+    let toml = run(home.path(), &arguments, &["--error", "2mm", "--frequency-hz", "100e6"]);
     fs::write(home.path().join("unit.toml"), &toml).unwrap();
     run(home.path(), &["generate", "--spec", "unit.toml", "--out", "hardware"], &[]);
     let unit: AngleUnit = match Design::named(home.path().join("unit.toml").to_str().unwrap()).unwrap() {
@@ -354,7 +366,8 @@ fn the_area_model_is_fitted_to_a_sweeps_own_file() {
     let tripled = fs::read_to_string(home.path().join("tripled/sweep.csv")).unwrap();
     let tripled = tripled.split_once('\n').unwrap().1;
     let text = fs::read_to_string(&path).unwrap() + tripled;
-    let text = text.replace("fitted model", "synthesised");
+    let text =
+        text.replace("fitted model, extrapolated", "fitted model").replace("fitted model", "synthesised");
     fs::write(home.path().join("areas.csv"), text).unwrap();
     let fitted = run(home.path(), &["sweep", "--fit-area", "areas.csv"], &[]);
     assert!(fitted.contains("largest deviation 0.0 %"), "{fitted}");

@@ -5,6 +5,7 @@ mod support;
 
 use std::f64::consts::TAU;
 use support::{accepted, everything, small, two_at_a_time};
+use vuris::artifact::Artifact;
 use vuris::cosim::{Simulation, Simulator, Traffic, random_sets};
 use vuris::frames::RawSets;
 use vuris::hdl::{Golden, Scenario, Source};
@@ -327,4 +328,55 @@ fn unwrapping_agrees_in_both_simulators() {
             .sum::<u64>()
     });
     println!("{} values compared in {} runs", values.iter().sum::<u64>(), runs.len());
+}
+
+/// A sensor of 4 x 2 pixels: the harness' stops of 256 clocks outlast its sets of 32 samples, so that a set's last pixel still
+/// waits for the sink when the next set, of another frequency or without a partner, begins to drain.
+fn few_pixels() -> Pipeline {
+    pipeline(unwrapping([5, 4]), |specification| {
+        specification.sensor.width = 4;
+        specification.sensor.height = 2;
+        specification.sensor.line_blanking_clocks = 16;
+        specification.modulation.frames_per_step = 1;
+        // A pixel is over soon, so that there are many sets, and many last pixels.
+        (specification.output.phase_bits, specification.output.distance_unit_m) = (8, 1e-2);
+        specification.cordic.iterations = 8;
+    })
+}
+
+/// Values that differ in each mixture of pauses and stops, with what `change` does to the Verilog.
+fn mismatches(pipeline: &Pipeline, simulator: Simulator, change: &dyn Fn(&mut Vec<Artifact>)) -> [u64; 4] {
+    let mut scenario = everything(pipeline, 21);
+    scenario.segments.push(vuris::hdl::Segment::of_sets("many sets", &random_sets(pipeline, 22, 400)));
+    let golden = Golden::new(pipeline, &scenario.in_turn());
+    let folder = tempfile::tempdir().unwrap();
+    let source = Source { pipeline, spec: "test" };
+    let simulation = Simulation::build(source, &golden, simulator, folder.path(), change).unwrap();
+    Traffic::profiles(5).map(|traffic| {
+        let outcome = simulation.run(traffic).unwrap();
+        for finding in outcome.findings.iter().take(3) {
+            println!("{}, {traffic:?}: {finding}", simulator.name());
+        }
+        outcome.mismatches
+    })
+}
+
+#[test]
+fn a_sets_last_pixel_keeps_its_frequency_while_it_waits_for_longer_than_the_next_set_takes() {
+    let pipeline = few_pixels();
+    for simulator in Simulator::ALL {
+        assert_eq!(mismatches(&pipeline, simulator, &|_| {}), [0; 4], "{}", simulator.name());
+    }
+    // Marks that are the draining set's and not the pixel's: right as long as nothing waits.
+    let of_the_set = |artifacts: &mut Vec<Artifact>| {
+        let top = format!("rtl/{}.v", pipeline.top());
+        let file = artifacts.iter_mut().find(|file| file.path == top).unwrap();
+        let marks = "{sums_second_q, sums_partner_q, ";
+        assert_eq!(file.text.matches(marks).count(), 1);
+        file.text = file.text.replace(marks, "{drain_second_q, drain_partner_q, ");
+    };
+    for simulator in Simulator::ALL {
+        let found = mismatches(&pipeline, simulator, &of_the_set);
+        assert!(found[1] == 0 && found[2] > 0, "{}: {found:?}", simulator.name());
+    }
 }

@@ -3,10 +3,11 @@
 use super::print::say;
 use super::{agreement, progress};
 use crate::problem::{Problem, Result};
-use crate::proof::formal::{self, FAULTS, Finding, PROOFS};
+use crate::proof::formal::{self, FAULTS, Fault, Finding, PROOFS, Proof, Record, table};
 use crate::spec::Pipeline;
 use clap::Args;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Prove properties of the generated modules for all inputs, and show that each proof fails on designs with a fault
 #[derive(Debug, Args)]
@@ -31,30 +32,51 @@ impl Prove {
             return Err(Problem::at("--proof", self.proof.unwrap_or_default()).expected(names.join(", ")));
         }
         let mut agrees = true;
+        let mut records = Vec::new();
         for proof in PROOFS.iter().filter(|proof| chosen(proof.name)) {
             say!("{}: {}", proof.name, proof.purpose);
+            let start = Instant::now();
             let findings = progress::during(proof.name, || formal::prove(&pipeline, proof, None))?;
+            let seconds = start.elapsed().as_secs_f64();
             for finding in &findings {
                 let kind = if finding.cover { "reached" } else { "violated" };
                 let verdict = if finding.holds() { "holds" } else { "FAILS" };
                 say!("  {verdict}: {}: {kind} {}", finding.what, finding.answer);
                 agrees &= finding.holds();
             }
+            let start = Instant::now();
+            let mut faults = Vec::new();
             for fault in FAULTS.iter().filter(|fault| fault.proof == proof.name && !self.no_faults) {
-                let findings = progress::during(fault.name, || formal::prove(&pipeline, proof, Some(fault)))?;
-                match findings.iter().find(|finding| finding.shows_fault()) {
-                    Some(seen) => say!(
-                        "  seen:  {}: {}: {} violated {}",
+                if !formal::has_place(&pipeline, proof, fault)? {
+                    say!(
+                        "  left out: {}: {}: this specification's Verilog has no such place",
                         fault.noun,
-                        fault.name,
-                        seen.what,
-                        seen.answer
-                    ),
-                    None => say!("  MISSED: {}: {}", fault.noun, fault.name),
+                        fault.name
+                    );
+                    continue;
                 }
-                agrees &= findings.iter().any(Finding::shows_fault);
+                let seen = Self::seen(&pipeline, proof, fault)?;
+                faults.push((fault.name, seen));
+                agrees &= seen;
             }
+            let fault_seconds = start.elapsed().as_secs_f64();
+            records.push(Record { proof, findings, seconds, faults, fault_seconds });
         }
+        say!("\n{}", table(&records).trim_end());
         Ok(agreement(agrees))
+    }
+
+    /// Whether `proof` sees `fault`.
+    fn seen(pipeline: &Pipeline, proof: &Proof, fault: &Fault) -> Result<bool> {
+        let findings = progress::during(fault.name, || formal::prove(pipeline, proof, Some(fault)))?;
+        let Fault { noun, name, .. } = fault;
+        let seen = findings.iter().find(|finding| finding.shows_fault());
+        match seen {
+            Some(Finding { what, answer, .. }) => {
+                say!("  seen:  {noun}: {name}: {what} violated {answer}");
+            }
+            None => say!("  MISSED: {noun}: {name}"),
+        }
+        Ok(seen.is_some())
     }
 }

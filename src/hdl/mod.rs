@@ -145,12 +145,18 @@ pub fn module_nouns() -> impl Iterator<Item = &'static str> {
     nouns.into_iter()
 }
 
-/// The Verilog files of the angle unit alone, its top module `<prefix>_angle` last, and the file list.
+/// The Verilog files of the angle unit alone, its top module `<prefix>_angle` last, and the file list; for tables
+/// and multipliers the ECP5's own, with a list of its own.
 pub fn angle_artifacts(source: &AngleSource, spec: &str) -> Vec<Artifact> {
     let mut artifacts = angle_files(source, spec);
     let top = format!("{}_angle", source.prefix);
-    artifacts.push(file_list(&artifacts, &top, spec));
-    artifacts.extend(poly::ecp5_artifact(source, spec));
+    let list = file_list(&artifacts, &top, spec);
+    if let Some(multiplier) = poly::ecp5_artifact(source, spec) {
+        // The same core with the ECP5's own multiplier.
+        let text = list.text.replace(&multiplier.path.replace("ecp5/", "rtl/"), &multiplier.path);
+        artifacts.extend([Artifact::new("ecp5/files.f", text), multiplier]);
+    }
+    artifacts.push(list);
     artifacts
 }
 

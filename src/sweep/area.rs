@@ -1,13 +1,15 @@
 //! What a configuration costs: LUT4 + 2 · CCU2C of an ECP5, synthesised or by a fitted model.
 
 use crate::problem::{Problem, Result};
-use crate::spec::{AngleUnit, Architecture};
+use crate::spec::{AngleUnit, Architecture, Throughput};
 
 /// Where an area comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AreaSource {
     /// The fitted model.
     Fitted,
+    /// The fitted model, of a unit unlike those that it was fitted to.
+    Extrapolated,
     /// Synthesis of this very configuration.
     Synthesised,
 }
@@ -17,8 +19,19 @@ impl AreaSource {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Fitted => "fitted model",
+            Self::Extrapolated => "fitted model, extrapolated",
             Self::Synthesised => "synthesised",
         }
+    }
+}
+
+impl AreaSource {
+    /// What stands over a table or beside an axis: each that is there, once.
+    pub fn names(sources: impl IntoIterator<Item = Self>) -> String {
+        let mut names: Vec<&str> = sources.into_iter().map(Self::name).collect();
+        names.sort_unstable();
+        names.dedup();
+        names.join("; ")
     }
 }
 
@@ -46,8 +59,8 @@ impl AreaModel {
     /// The model of `architecture`, with the coefficients that `vuris sweep --fit-area tests/data/area-points.csv` prints.
     ///
     /// The points are 57 units without length, synthesised by Yosys 0.70 (`synth_ecp5`): words of 8 to 24 bits, phases of 8 to 20. No
-    /// point is further off than 3 % unrolled, 5 % folded (four clocks a vector), 12 % for one iteration a clock. What the
-    /// model says of units with a length is an extrapolation. `vuris sweep --synthesise --out DIR` over several words, phase bits,
+    /// point is further off than 3 % unrolled, 5 % folded (four clocks a vector), 12 % for one iteration a clock. Of other words or
+    /// phases, other clocks a vector, fewer registers or a length it is an [extrapolation](AreaSource::Extrapolated). `vuris sweep --synthesise --out DIR` over several words, phase bits,
     /// iterations and guard bits, of both metrics, makes new points (the rows of DIR/sweep.csv).
     pub const fn of(architecture: Architecture) -> Self {
         let coefficients = match architecture {
@@ -95,10 +108,26 @@ impl AreaModel {
         [fold, shift, over(built, &bits_at), over(built, &tripled_at), angle].map(f64::from)
     }
 
+    /// Whether `unit` is like the points that the coefficients were fitted to.
+    fn is_covered(unit: &AngleUnit) -> bool {
+        let clocks = match unit.architecture {
+            Architecture::Folded { .. } => unit.cordic.throughput == Throughput::CyclesPerPixel(4),
+            Architecture::Unrolled | Architecture::Iterative => true,
+            Architecture::Tables => false,
+        };
+        let words = [unit.x_bits, unit.y_bits].iter().all(|bits| (8..=24).contains(bits));
+        clocks
+            && words
+            && (8..=20).contains(&unit.phase_bits)
+            && unit.length_bits == 0
+            && unit.cordic.pipeline_every == 1
+    }
+
     /// The area of `unit`.
     pub fn area(&self, unit: &AngleUnit) -> Area {
         let luts = Self::features(unit).iter().zip(self.coefficients).map(|(bits, cost)| bits * cost).sum();
-        Area { luts, source: AreaSource::Fitted }
+        let source = if Self::is_covered(unit) { AreaSource::Fitted } else { AreaSource::Extrapolated };
+        Area { luts, source }
     }
 
     /// The coefficients with the least squared relative error for synthesised areas of units of one architecture, and the largest
@@ -166,7 +195,6 @@ mod tests {
     use super::super::configuration::Configuration;
     use super::super::configuration::tests::word;
     use super::*;
-    use crate::spec::Throughput;
 
     const THROUGHPUTS: [Throughput; 3] =
         [Throughput::CyclesPerPixel(1), Throughput::CyclesPerPixel(4), Throughput::OneIterationAClock];
@@ -203,6 +231,25 @@ mod tests {
             assert!(worst < 1e-9);
             assert!(AreaModel::fit(&points[..4]).is_err());
             assert!(AreaModel::fit(&vec![points[0].clone(); 9]).is_err());
+        }
+    }
+
+    #[test]
+    fn units_unlike_the_fitted_ones_are_said_to_be_extrapolated() {
+        let source = |configuration: Configuration| {
+            let unit = configuration.unit().unwrap();
+            AreaModel::of(unit.architecture).area(&unit).source
+        };
+        let unit = word(16, 16);
+        assert_eq!(source(unit), AreaSource::Fitted);
+        for other in [
+            Configuration { length_bits: 12, ..unit },
+            Configuration { x_bits: 7, ..unit },
+            Configuration { phase_bits: 22, iterations: 22, ..unit },
+            Configuration { throughput: Throughput::CyclesPerPixel(8), ..unit },
+            Configuration { pipeline_every: 2, ..unit },
+        ] {
+            assert_eq!(source(other), AreaSource::Extrapolated, "{other}");
         }
     }
 

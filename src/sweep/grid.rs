@@ -14,7 +14,7 @@ pub struct Grid {
     pub words: Vec<(u32, u32, i64)>,
     /// Bits of the phase.
     pub phase_bits: Vec<u32>,
-    /// CORDIC iterations.
+    /// CORDIC iterations; where none are listed, those that fit the phase: see [`fitting_iterations`].
     pub iterations: Vec<u32>,
     /// Bits of the vector below the phase's resolution.
     pub vector_guard_bits: Vec<u32>,
@@ -45,6 +45,23 @@ fn times<T: Copy>(
         .collect()
 }
 
+/// Fields that a unit may refuse, and the options that set them.
+const OPTIONS: [(&str, &str); 6] = [
+    ("x bits", "--word"),
+    ("y bits", "--word"),
+    ("output.phase_bits", "--phase-bits"),
+    ("cordic.iterations", "--iterations"),
+    ("cordic.vector_guard_bits", "--vector-guard-bits"),
+    ("cordic.angle_guard_bits", "--angle-guard-bits"),
+];
+
+/// One iteration more than the phase has bits, so that the last angle is a sixth of a code, as far as the vector's guard bits
+/// allow it.
+fn fitting_iterations(configuration: &Configuration) -> u32 {
+    let &Configuration { phase_bits, vector_guard_bits, .. } = configuration;
+    (phase_bits + vector_guard_bits.min(1)).clamp(4, 30)
+}
+
 impl Grid {
     /// Reads a list of whole numbers and ranges, such as `8,10-14`, in rising order without repetition.
     pub fn numbers(option: &str, text: &str) -> Result<Vec<u32>> {
@@ -71,8 +88,14 @@ impl Grid {
     pub fn configurations(&self) -> Result<Vec<(Configuration, AngleUnit)>> {
         let all = times(&[self.base], &self.words, |c, word| (c.x_bits, c.y_bits, c.metric) = word);
         let all = times(&all, &self.phase_bits, |c, bits| c.phase_bits = bits);
-        let all = times(&all, &self.iterations, |c, iterations| c.iterations = iterations);
-        let all = times(&all, &self.vector_guard_bits, |c, bits| c.vector_guard_bits = bits);
+        let all = match &self.iterations[..] {
+            [] => all,
+            listed => times(&all, listed, |c, iterations| c.iterations = iterations),
+        };
+        let mut all = times(&all, &self.vector_guard_bits, |c, bits| c.vector_guard_bits = bits);
+        if self.iterations.is_empty() {
+            all.iter_mut().for_each(|c| c.iterations = fitting_iterations(c));
+        }
         let all = times(&all, &self.angle_guard_bits, |c, bits| c.angle_guard_bits = bits);
         let all = times(&all, &self.throughputs, |c, throughput| c.throughput = throughput);
         let all = times(&all, &self.normaliser, |c, normaliser| c.normaliser = normaliser);
@@ -87,7 +110,16 @@ impl Grid {
             }
         }
         match (found.is_empty(), refusal) {
-            (true, Some(problem)) => Err(problem.remedy("widen the lists of values")),
+            (true, Some(problem)) => {
+                let remedy =
+                    OPTIONS.iter().find(|(field, _)| problem.found().starts_with(field)).map_or_else(
+                        || "change what is named, by its option or in --spec".to_owned(),
+                        |(_, option)| {
+                            format!("give {option} a value that this allows: no combination can be built")
+                        },
+                    );
+                Err(problem.remedy(remedy))
+            }
             _ => Ok(found),
         }
     }
@@ -123,7 +155,16 @@ mod tests {
         };
         // 8 iterations with either guard, 9 with one.
         assert_eq!(grid.configurations().unwrap().len(), 2 * 3 * 2);
-        let none = Grid { iterations: vec![10], ..grid };
-        assert!(none.configurations().unwrap_err().to_string().contains("iterations = 10"));
+        let none = Grid { iterations: vec![10], ..grid.clone() };
+        let refusal = none.configurations().unwrap_err().to_string();
+        assert!(refusal.contains("iterations = 10") && refusal.contains("give --iterations"), "{refusal}");
+        let fitting = Grid { iterations: vec![], phase_bits: vec![8, 12], ..grid };
+        let built = fitting.configurations().unwrap();
+        // As far as the guard bits allow: 8 and 9 iterations for 8 bits, 12 and 13 for 12.
+        let mut iterations: Vec<u32> =
+            built.iter().map(|(configuration, _)| configuration.iterations).collect();
+        iterations.sort_unstable();
+        iterations.dedup();
+        assert_eq!((built.len(), &iterations[..]), (2 * 2 * 2 * 2, &[8, 9, 12, 13][..]));
     }
 }

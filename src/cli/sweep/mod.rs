@@ -38,7 +38,7 @@ pub(super) struct Sweep {
     /// Bits of the phase
     #[arg(long, value_name = "LIST")]
     phase_bits: Option<String>,
-    /// CORDIC iterations
+    /// CORDIC iterations [default: with --word or --phase-bits one more than the phase's bits, otherwise the specification's]
     #[arg(long, value_name = "LIST")]
     iterations: Option<String>,
     /// Bits of the vector below the phase's resolution
@@ -187,7 +187,12 @@ impl Sweep {
             base,
             words,
             phase_bits: numbers("--phase-bits", &self.phase_bits, base.phase_bits)?,
-            iterations: numbers("--iterations", &self.iterations, base.iterations)?,
+            iterations: match &self.iterations {
+                Some(text) => Grid::numbers("--iterations", text)?,
+                // The specification's own belong to its own phase.
+                None if self.word.is_some() || self.phase_bits.is_some() => Vec::new(),
+                None => vec![base.iterations],
+            },
             vector_guard_bits: numbers(
                 "--vector-guard-bits",
                 &self.vector_guard_bits,

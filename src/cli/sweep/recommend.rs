@@ -6,7 +6,9 @@ use super::{Candidate, Sweep, areas, specification};
 use crate::physics::{Light, Sensor};
 use crate::problem::{Problem, Result};
 use crate::spec::{AngleUnit, Design};
-use crate::sweep::{ExactAngle, Figures, Grid, Plan, Requirement, Row, SensorNoise, Shard, evaluate};
+use crate::sweep::{
+    Coverage, ExactAngle, Figures, Grid, Plan, Requirement, Row, SensorNoise, Shard, evaluate,
+};
 use crate::units::unambiguous_range_m;
 use clap::Args;
 use std::f64::consts::TAU;
@@ -24,9 +26,10 @@ pub(super) struct Recommend {
     /// Largest error of the phase, such as 0.1mrad, 0.01deg or 0.5mm
     #[arg(long, value_name = "ERROR", requires = "recommend", conflicts_with = "add_noise")]
     error: Option<String>,
-    /// The proved worst case must hold too, not only the largest error found
+    /// For --error: the largest error among the vectors that are evaluated is enough; without it, the worst case that is proved for
+    /// every vector must hold
     #[arg(long, requires = "error")]
-    proved: bool,
+    sampled: bool,
     /// Share of the sensor's own phase noise that the arithmetic may add, such as 1%
     #[arg(long, value_name = "SHARE", requires = "recommend")]
     add_noise: Option<String>,
@@ -53,7 +56,15 @@ impl Recommend {
     fn requirement(&self, design: &Design, frequency_hz: f64) -> Result<(Requirement, String)> {
         if let Some(text) = &self.error {
             let requirement = Requirement::error(text, frequency_hz)?;
-            return Ok((requirement, format!("no vector more than {text} off")));
+            let words = match self.sampled {
+                false => {
+                    format!("no vector more than {text} off, by the bound that is proved for every vector")
+                }
+                true => format!(
+                    "none of the evaluated vectors more than {text} off, which is not proved of others"
+                ),
+            };
+            return Ok((requirement, words));
         }
         let Some(text) = &self.add_noise else {
             return Err(Problem::at("--recommend", "nothing is asked of the unit")
@@ -117,7 +128,7 @@ impl Sweep {
                 candidates.len()
             );
             say!("# Area of its angle unit: {:.0} LUT4 + 2 CCU2C ({}).", area.luts, area.source.name());
-            say!("# {}", errors(frequency_hz, unit, &rows, &requirement));
+            say!("# {}", errors(frequency_hz, unit, (plan.coverage(), &rows), &requirement));
             say!("{}", text.trim_end());
             return Ok(ExitCode::SUCCESS);
         }
@@ -152,7 +163,7 @@ impl Sweep {
         let mut candidates = grid.configurations()?;
         candidates.retain(|(configuration, unit)| {
             let proved = match *requirement {
-                Requirement::Error { turns } if self.recommend.proved => {
+                Requirement::Error { turns } if !self.recommend.sampled => {
                     unit.budget().phase_rad() / TAU <= turns
                 }
                 _ => true,
@@ -180,12 +191,17 @@ fn unmet(candidates: usize, words: &str) -> Problem {
     Problem::at("--recommend", format_args!("none of {candidates} candidates holds: {words}"))
         .expected("a requirement that 24 bits of phase and 6 of guard can meet")
         .remedy(
-            "ask for less, or give other --phase-bits, --iterations, --vector-guard-bits, --angle-guard-bits",
+            "ask for less, give --sampled with --error, or give other --phase-bits, --iterations, --vector-guard-bits, --angle-guard-bits",
         )
 }
 
 /// A line of what was measured and what is proved.
-fn errors(frequency_hz: f64, unit: &AngleUnit, rows: &[Row], requirement: &Requirement) -> String {
+fn errors(
+    frequency_hz: f64,
+    unit: &AngleUnit,
+    (coverage, rows): (Coverage, &[Row]),
+    requirement: &Requirement,
+) -> String {
     let max_turns = rows.first().map_or(f64::NAN, |row| row.figures.max_turns);
     let codes = f64::from(unit.phase_bits).exp2();
     let proved_turns = unit.budget().phase_codes() / codes;
@@ -193,11 +209,20 @@ fn errors(frequency_hz: f64, unit: &AngleUnit, rows: &[Row], requirement: &Requi
     let size = |turns: f64| {
         format!("{:.4} mrad = {:.4} mm = {:.3} LSB", 1e3 * TAU * turns, turns * turn_mm, turns * codes)
     };
-    let mut text =
-        format!("Largest error found {}; proved for every vector {}.", size(max_turns), size(proved_turns));
+    let vectors = match coverage {
+        Coverage::Exhaustive => "all vectors".to_owned(),
+        Coverage::Stratified { samples } => {
+            format!("weak vectors, corners and {samples} drawn in each octave")
+        }
+    };
+    let mut text = format!(
+        "Largest error of {vectors}: {}; proved for every vector: {}.",
+        size(max_turns),
+        size(proved_turns)
+    );
     if let Requirement::AddedNoise { noise, .. } = *requirement {
         let added = Requirement::added_noise(rows, noise).unwrap_or(f64::NAN);
-        text += &format!(" Added noise {:.3} %.", 100.0 * added);
+        text += &format!(" Added noise {:.3} % (RMS of the same vectors).", 100.0 * added);
     }
     text
 }

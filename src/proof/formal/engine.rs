@@ -46,14 +46,15 @@ pub(super) struct Design {
     pub text: String,
 }
 
-/// Asks for the bit `watch` of the `design` in `folder`: at any time, or within `bound` clocks.
+/// Asks for `watch`, a bit or an expression of the `design` in `folder`: at any time, or within `bound` clocks.
 pub(super) fn ask(folder: &Path, design: &Design, watch: &str, bound: Option<u32>) -> Result<Answer> {
     let Design { files, setup, text } = design;
     let properties = folder.join("properties.sv");
-    std::fs::write(&properties, text).map_err(|error| Problem::io(&properties, "write", &error))?;
+    std::fs::write(&properties, format!("`define WATCH {watch}\n{text}"))
+        .map_err(|error| Problem::io(&properties, "write", &error))?;
     // Registers without a reset start with anything; so does what nobody drives.
     let script = format!(
-        "read_verilog {}\n{setup}read_verilog -formal -sv -DWATCH={watch} properties.sv\nhierarchy -check -top properties\nproc\n\
+        "read_verilog {}\n{setup}read_verilog -formal -sv properties.sv\nhierarchy -check -top properties\nproc\n\
          flatten\nopt_clean\nmemory_map\nopt -full\nopt_clean -purge\ntechmap\nopt -fast\ndffunmap\nsimplemap\n\
          setundef -undriven -anyseq\naigmap\nopt_clean\nwrite_aiger -zinit circuit.aig\n",
         files.join(" ")

@@ -95,6 +95,13 @@ pub const FAULTS: &[Fault] = &[
         " || (in_set && drain_busy_i && !behind)",
         "",
     ),
+    fault(
+        "framing",
+        "framing",
+        "what is outside a set waits for the drain",
+        "(in_set && drain_busy_i && !behind)",
+        "(drain_busy_i && !behind)",
+    ),
     fault("framing", "framing", "counter survives a reset", "      sets_discarded_q <= 32'd0;\n", ""),
     fault(
         "sums-1",
@@ -102,6 +109,14 @@ pub const FAULTS: &[Fault] = &[
         "sums of the last set",
         "term_first_q      <= first_frame_i",
         "term_first_q      <= 1'b0",
+    ),
+    fault(
+        "sums-1",
+        "accumulator",
+        "sums of a set that broke off",
+        "    term_first_q      <= first_frame_i;\n",
+        "    begin : broken\n      reg stale;\n      if (!rst_ni || drain_start_i) stale <= 1'b0;\n      \
+         else if (take_i && !first_frame_i) stale <= 1'b1;\n      term_first_q <= first_frame_i && !stale;\n    end\n",
     ),
     fault(
         "sums-1",
@@ -139,13 +154,21 @@ pub const FAULTS: &[Fault] = &[
         "memory_0[write_address_i] <= write_data_i[17:0];",
         "memory_0[write_address_i] <= {write_data_i[17:1], 1'b0};",
     ),
-    fault("pipeline", "stream_register", "offered word changes", "if (!valid_q || ready_i) data_q", "data_q"),
+    // "Offered word changes" is seen by `stream`, in clock 3; from the ports of the whole core it takes more than five minutes to find.
     fault(
         "pipeline",
         "pipeline",
         "free clock counted as stalled",
         "s_axis_tvalid && !s_axis_tready",
         "!s_axis_tready",
+    ),
+    fault("folded", "other_cordic", "a direction is lost", "directions_2[0] ^ sign_2}", "directions_2[0]}"),
+    fault(
+        "iterative",
+        "other_angle",
+        "a direction is lost",
+        "direction = direction_q ^ sign",
+        "direction = direction_q",
     ),
     fault("folded", "other_cordic", "a vector overwrites one in the ring", "advance_i && !back", "advance_i"),
     fault(

@@ -9,15 +9,19 @@ mod engine;
 mod equal;
 mod fault;
 mod proof;
+mod table;
 
 pub use engine::Answer;
 pub(super) use engine::never;
 pub use fault::{FAULTS, Fault};
+pub(super) use proof::padding;
 pub use proof::{PROOFS, Proof};
+pub use table::{Record, table};
 
 use crate::artifact;
 use crate::problem::{Problem, Result};
 use crate::spec::Pipeline;
+use std::path::Path;
 
 /// What was asked of a design, and the answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,18 +68,20 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
         rtl.iter().map(|file| file.path.clone()).filter(|path| path.ends_with(".v")).collect();
     let text = format!("{}{}", (proof.definitions)(pipeline), proof.text);
     let design = engine::Design { files, setup: (proof.setup)(pipeline), text };
+    let cover_clocks = (proof.cover_clocks)(pipeline);
+    if fault.is_some()
+        && let Some(finding) = violated(temporary.path(), &design, proof, cover_clocks)?
+    {
+        return Ok(vec![finding]);
+    }
     let mut findings = Vec::new();
     for (list, cover) in [("bad", false), ("seen", true)] {
         // A design with a fault need not be covered.
         for (number, what) in proof.names(list).into_iter().filter(|_| !cover || fault.is_none()) {
             let watch = format!("{list}[{number}]");
             let bounded = proof.bounded.iter().find(|&&(bounded, _)| bounded == number);
-            let bound = if cover { Some(proof.cover_clocks) } else { bounded.map(|&(_, clocks)| clocks) };
-            let mut answer = engine::ask(temporary.path(), &design, &watch, bound)?;
-            // A violation may lie too deep for a proof, and yet be found in the clocks in which everything can happen.
-            if fault.is_some() && answer == Answer::Undecided {
-                answer = engine::ask(temporary.path(), &design, &watch, Some(proof.cover_clocks))?;
-            }
+            let bound = if cover { Some(cover_clocks) } else { bounded.map(|&(_, clocks)| clocks) };
+            let answer = engine::ask(temporary.path(), &design, &watch, bound)?;
             findings.push(Finding { proof: proof.name, what, cover, answer });
             // One violation is enough.
             if fault.is_some() && findings.last().is_some_and(Finding::shows_fault) {
@@ -84,6 +90,26 @@ pub fn prove(pipeline: &Pipeline, proof: &Proof, fault: Option<&Fault>) -> Resul
         }
     }
     Ok(findings)
+}
+
+/// The first property that is violated within `clocks`: all are asked for at once, then the one that it was. What a proof would try in
+/// vain for minutes is found in seconds so.
+fn violated(folder: &Path, design: &engine::Design, proof: &Proof, clocks: u32) -> Result<Option<Finding>> {
+    let Answer::Reached(clock) = engine::ask(folder, design, "|bad", Some(clocks))? else { return Ok(None) };
+    for (number, what) in proof.names("bad") {
+        let answer = engine::ask(folder, design, &format!("bad[{number}]"), Some(clock + 1))?;
+        if matches!(answer, Answer::Reached(_)) {
+            return Ok(Some(Finding { proof: proof.name, what, cover: false, answer }));
+        }
+    }
+    Ok(None)
+}
+
+/// Whether the Verilog of `pipeline` has the place of `fault`: another scheme has other sums.
+pub fn has_place(pipeline: &Pipeline, proof: &Proof, fault: &Fault) -> Result<bool> {
+    let pipeline = few_pixels(pipeline)?;
+    let mut rtl = (proof.rtl)(&pipeline)?;
+    Ok(fault.seed(&pipeline.prefix(), &mut rtl).is_ok())
 }
 
 /// The same core with the smallest sensor that a specification may have: a frame is over in eight clocks.

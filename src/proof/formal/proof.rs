@@ -3,12 +3,12 @@
 use super::equal;
 use crate::artifact::Artifact;
 use crate::hdl::{Source, result_bits, result_fields, rtl_artifacts};
-use crate::problem::Result;
+use crate::problem::{Problem, Result};
 use crate::spec::{Pipeline, Word};
 use std::fmt::Write;
 
 /// A property file with its constants.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct Proof {
     /// Its name, the file's.
     pub name: &'static str,
@@ -25,7 +25,7 @@ pub struct Proof {
     /// Properties that are proved up to so many clocks after power-up; all others are proved for ever.
     pub bounded: &'static [(usize, u32)],
     /// Clocks within which every cover must be reached.
-    pub cover_clocks: u32,
+    pub(super) cover_clocks: fn(&Pipeline) -> u32,
 }
 
 /// All proofs.
@@ -40,7 +40,7 @@ pub const PROOFS: &[Proof] = &[
         },
         setup: nothing,
         bounded: &[],
-        cover_clocks: 30,
+        cover_clocks: |_| 30,
     },
     Proof {
         name: "framing",
@@ -50,7 +50,7 @@ pub const PROOFS: &[Proof] = &[
         definitions: framing,
         setup: nothing,
         bounded: &[],
-        cover_clocks: 120,
+        cover_clocks: |_| 120,
     },
     sums_of_pixel("sums-0", |pipeline| sums(pipeline, 0)),
     sums_of_pixel("sums-1", |pipeline| sums(pipeline, 1)),
@@ -64,7 +64,7 @@ pub const PROOFS: &[Proof] = &[
         definitions: whole,
         setup: nothing,
         bounded: &[],
-        cover_clocks: 200,
+        cover_clocks: cover_of_results,
     },
     equal::PAIRS[0],
     equal::PAIRS[1],
@@ -74,13 +74,16 @@ pub const PROOFS: &[Proof] = &[
 const fn sums_of_pixel(name: &'static str, definitions: fn(&Pipeline) -> String) -> Proof {
     Proof {
         name,
-        purpose: "what drains for a pixel is the exact sum of weight times sample: no overflow, nothing stale",
+        purpose: "what drains for a pixel is the exact sum of weight times sample: no overflow, nothing stale, after sets that broke off too",
         text: include_str!("../../../formal/sums.sv"),
-        rtl: core,
+        rtl: |pipeline| {
+            provable_sums(pipeline)?;
+            core(pipeline)
+        },
         definitions,
         setup: small_memory,
         bounded: &[],
-        cover_clocks: 80,
+        cover_clocks: cover_of_sums,
     }
 }
 
@@ -143,6 +146,46 @@ fn bits((low, high): (i64, i64)) -> u32 {
     Word::holding(low, high).bits
 }
 
+/// Raw frames of a set beyond which the proof of its sums is not tried: every question is as deep as a set is long. Five take half a minute
+/// a pixel on an idle machine; ten are not decided in five minutes.
+const MOST_FRAMES: usize = 8;
+
+/// A set of four pixels, and what it takes to drain and to begin another.
+fn cover_of_sums(pipeline: &Pipeline) -> u32 {
+    4 * pipeline.derived().frames_per_set as u32 + 60
+}
+
+/// A set of eight pixels, the way of its first result through the core, and some clocks in which results wait.
+fn cover_of_results(pipeline: &Pipeline) -> u32 {
+    let derived = pipeline.derived();
+    8 * derived.frames_per_set as u32 + derived.latency_clocks + 120
+}
+
+/// Weights beyond which samples are multiplied: the observer would have to prove a multiplier again.
+const LARGEST_WEIGHT: i64 = 15;
+
+/// Refuses sums whose proof does not end.
+fn provable_sums(pipeline: &Pipeline) -> Result<()> {
+    let frames = pipeline.derived().frames_per_set;
+    let scheme = &pipeline.modulation.scheme;
+    let weights = [&scheme.in_phase, &scheme.quadrature, &scheme.offset];
+    let largest = weights.into_iter().flat_map(|weights| weights.iter()).map(|weight| weight.abs()).max();
+    let place = "the proof of the sums";
+    if frames > MOST_FRAMES {
+        return Err(Problem::at(place, format_args!("{frames} raw frames a set"))
+            .expected(format_args!("at most {MOST_FRAMES}: beyond, no answer comes within minutes"))
+            .remedy("prove the same specification with a smaller modulation.frames_per_step, or choose other proofs by --proof"));
+    }
+    if largest.is_some_and(|weight| weight > LARGEST_WEIGHT) {
+        return Err(Problem::at(place, format_args!("a weight of {}", largest.unwrap_or(0)))
+            .expected(format_args!(
+                "at most {LARGEST_WEIGHT}: products by weights of a table are not decided within minutes"
+            ))
+            .remedy("choose other proofs by --proof; `vuris verify` compares these sums bit by bit"));
+    }
+    Ok(())
+}
+
 fn sums(pipeline: &Pipeline, pixel: u32) -> String {
     let scheme = &pipeline.modulation.scheme;
     let [in_phase, quadrature, offset] = sum_bounds(pipeline);
@@ -157,6 +200,9 @@ fn sums(pipeline: &Pipeline, pixel: u32) -> String {
         })
         .collect();
     let steps = scheme.steps();
+    let frames = pipeline.derived().frames_per_set as i64;
+    // The observer's words: signed, and each a bit wider than the widest sum.
+    let wide = [in_phase, quadrature, offset].map(bits).into_iter().max().unwrap_or(1) + 1;
     let mut weights = String::new();
     for step in 0..steps {
         let (i, q, o) = (scheme.in_phase[step], scheme.quadrature[step], scheme.offset[step]);
@@ -175,6 +221,8 @@ fn sums(pipeline: &Pipeline, pixel: u32) -> String {
         define("QUADRATURE_BITS", bits(quadrature)),
         define("OFFSET_BITS", bits(offset)),
         define("KEPT_PARAMETERS", kept),
+        define("WIDE_BITS", wide),
+        define("FRAME_BITS", Word::holding(0, frames - 1).bits),
         define("STEPS", steps),
         define("STEP_BITS", Word::holding(0, steps as i64 - 1).bits),
         define("REPEATS", pipeline.modulation.frames_per_step),
@@ -186,13 +234,18 @@ fn sums(pipeline: &Pipeline, pixel: u32) -> String {
     .concat()
 }
 
-fn whole(pipeline: &Pipeline) -> String {
+/// A literal with a 1 for every bit of the result that no field has.
+pub(in crate::proof) fn padding(pipeline: &Pipeline) -> String {
     let bits = result_bits(pipeline);
     let fields = result_fields(pipeline);
     let within = |bit: u32| fields.iter().any(|field| (field.low..field.low + field.bits).contains(&bit));
     let padding: String = (0..bits).rev().map(|bit| if within(bit) { '0' } else { '1' }).collect();
+    format!("{bits}'b{padding}")
+}
+
+fn whole(pipeline: &Pipeline) -> String {
     define("PIPELINE", pipeline.top())
         + &define("SAMPLE_BUS", pipeline.derived().sample.bits.next_multiple_of(8))
-        + &define("RESULT_BITS", bits)
-        + &define("PADDING", format_args!("{bits}'b{padding}"))
+        + &define("RESULT_BITS", result_bits(pipeline))
+        + &define("PADDING", padding(pipeline))
 }

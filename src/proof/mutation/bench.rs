@@ -6,6 +6,7 @@ use crate::artifact::Artifact;
 use crate::cosim::{Simulation, Simulator, Traffic};
 use crate::hdl::{Golden, Source};
 use crate::problem::{Problem, Result};
+use std::io::{Read, Seek};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -13,7 +14,8 @@ use std::time::{Duration, Instant};
 /// Seeds of each mixture of pauses and stops. Some faults need one clock of a stop at one place.
 const SEEDS: u32 = 4;
 
-/// A run that takes longer hangs: a run of the core without a fault takes less than a second.
+/// A run that takes longer hangs, or the machine does: a run of the core without a fault takes less than a second, and the bench
+/// itself gives up after so many clocks without a result. It has a verdict of its own.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The program that holds all mutants.
@@ -71,41 +73,75 @@ impl<'a> Bench<'a> {
     /// Runs the mutant of `number`, from 1 (0: none), with one mixture after the other until one kills it.
     pub(super) fn run(&self, number: usize) -> Result<Verdict> {
         for traffic in (1..=self.seeds).flat_map(Traffic::profiles) {
-            if !self.passes(number, traffic)? {
-                return Ok(Verdict::Killed);
+            let verdict = self.verdict(number, traffic)?;
+            if verdict != Verdict::Survived {
+                return Ok(verdict);
             }
         }
         Ok(Verdict::Survived)
     }
 
-    fn passes(&self, number: usize, traffic: Traffic) -> Result<bool> {
+    /// One run. A bench that ends otherwise than by its own judgement says nothing about the mutant.
+    fn verdict(&self, number: usize, traffic: Traffic) -> Result<Verdict> {
         let Traffic { seed, pause_percent, stop_percent } = traffic;
         let program = self.simulation.program();
         let program = program.canonicalize().map_err(|error| Problem::io(program, "run", &error))?;
         let failed = |error: std::io::Error| Problem::io(&program, "run", &error);
+        let mut said = tempfile::tempfile().map_err(failed)?;
         let mut command = Command::new(&program);
-        command.current_dir(self.folder).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        command.current_dir(self.folder).stdin(Stdio::null()).stdout(Stdio::null());
+        command.stderr(said.try_clone().map_err(failed)?);
         command.args([format!("+mutant={number}"), format!("+seed={seed}")]);
         command.args([format!("+pause={pause_percent}"), format!("+stop={stop_percent}")]);
         let mut child = command.spawn().map_err(failed)?;
         let start = Instant::now();
         let mut nap = Duration::from_millis(1);
-        loop {
+        let status = loop {
             if let Some(status) = child.try_wait().map_err(failed)? {
-                return match status.code() {
-                    Some(0) => Ok(true),
-                    Some(1) => Ok(false),
-                    // Verilator stops a core that does not settle.
-                    _ if number > 0 => Ok(false),
-                    _ => Err(Problem::in_file(&program, format_args!("ended with {status}"))),
-                };
+                break status;
             }
             if start.elapsed() > PATIENCE {
                 child.kill().and_then(|()| child.wait()).map_err(failed)?;
-                return Ok(false);
+                return Ok(Verdict::TimedOut);
             }
             std::thread::sleep(nap);
             nap = (nap * 2).min(Duration::from_millis(16));
+        };
+        let mut text = String::new();
+        said.rewind().and_then(|()| said.read_to_string(&mut text)).map_err(failed)?;
+        judged(status.code(), &text).ok_or_else(|| {
+            let last = text.lines().last().unwrap_or("nothing");
+            Problem::in_file(&program, format_args!("mutant {number}: ended with {status}; it said: {last}"))
+                .expected("0 (no difference), 1 (a difference), or that the design did not converge")
+                .remedy("run it by hand; look whether the machine ran out of memory")
+        })
+    }
+}
+
+/// What a run that ended with this exit code (none: by a signal) and these messages says of its mutant.
+fn judged(code: Option<i32>, said: &str) -> Option<Verdict> {
+    match code {
+        Some(0) => Some(Verdict::Survived),
+        Some(1) => Some(Verdict::Killed),
+        // Verilator stops a core whose combinational loop does not settle.
+        _ if said.contains("did not converge") => Some(Verdict::Killed),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_difference_and_a_loop_kill() {
+        assert_eq!(judged(Some(0), ""), Some(Verdict::Survived));
+        assert_eq!(judged(Some(1), ""), Some(Verdict::Killed));
+        let loops = "%Error: rtl/mutated.v:9: Settle region did not converge after 100 tries\nAborting...";
+        assert_eq!(judged(None, loops), Some(Verdict::Killed));
+        for (code, said) in [(None, ""), (Some(2), "vectors/stimulus.hex is missing"), (Some(137), "Killed")]
+        {
+            assert_eq!(judged(code, said), None, "{code:?}");
         }
     }
 }

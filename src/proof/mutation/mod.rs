@@ -32,6 +32,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub enum Verdict {
     /// The bench saw it.
     Killed,
+    /// The bench did not end: seen as well, but by a clock on the wall.
+    TimedOut,
     /// The bench did not see it, and it is no fault: proved.
     Equivalent,
     /// The bench did not see it.

@@ -5,6 +5,7 @@ use crate::artifact::{self, Artifact};
 use crate::hdl::{Source, rtl_artifacts};
 use crate::problem::{Problem, Result};
 use crate::proof::yosys::yosys;
+use crate::spec::Pipeline;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::path::Path;
@@ -25,6 +26,7 @@ pub(super) const LATE_COUNTS: u32 = 6;
 pub(super) struct Netlist<'a> {
     pub folder: &'a Path,
     pub top: String,
+    pub pipeline: Pipeline,
     prefix: String,
     /// The generated Verilog, for excerpts.
     pub rtl: Vec<Artifact>,
@@ -52,7 +54,8 @@ impl<'a> Netlist<'a> {
             files.join(" ")
         );
         yosys(folder, &script)?;
-        Ok(Self { folder, top, prefix: source.pipeline.prefix(), rtl })
+        let pipeline = source.pipeline.clone();
+        Ok(Self { folder, top, prefix: pipeline.prefix(), pipeline, rtl })
     }
 
     /// Draws mutants, `per_module` of each module.

@@ -3,7 +3,7 @@
 use super::super::svg::{MARGIN, Svg, WIDTH};
 use super::columns::units;
 use crate::spec::Throughput;
-use crate::sweep::{Point, pareto_front};
+use crate::sweep::{AreaSource, Point, pareto_front};
 
 const TOP: f64 = 100.0;
 const HEIGHT: f64 = 460.0;
@@ -92,7 +92,7 @@ pub fn sweep_picture(points: &[Point], frequency_hz: f64, subtitle: &str) -> Str
     }
     svg.text(LEFT, TOP - 10.0, "soft", "mrad");
     svg.text(RIGHT, TOP - 10.0, "soft end", &format!("mm at {} MHz", frequency_hz / 1e6));
-    let source = points.first().map_or("", |point| point.area.source.name());
+    let source = AreaSource::names(points.iter().map(|point| point.area.source));
     svg.text(
         (LEFT + RIGHT) / 2.0,
         bottom + 44.0,

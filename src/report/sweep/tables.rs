@@ -2,7 +2,7 @@
 
 use super::super::table::aligned;
 use super::columns::units;
-use crate::sweep::{Coverage, Point, pareto_front, rounding_name, throughput_name};
+use crate::sweep::{AreaSource, Coverage, Point, pareto_front, rounding_name, throughput_name};
 
 /// Four significant digits, or none where there is nothing.
 fn digits(value: f64) -> String {
@@ -15,7 +15,7 @@ fn digits(value: f64) -> String {
 
 /// The configurations that no other beats in area and largest error, by rising area.
 pub fn front_table(points: &[Point], frequency_hz: f64) -> String {
-    let source = points.first().map_or("", |point| point.area.source.name());
+    let source = AreaSource::names(points.iter().map(|point| point.area.source));
     let area = format!("LUTs ({source})");
     let header = [
         &area,
