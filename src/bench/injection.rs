@@ -2,7 +2,7 @@
 
 use crate::physics::{Active, EFFECTS, Effect, Parameter, effects};
 use crate::problem::{Problem, Result};
-use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
+use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, effect_name};
 
 /// What the baseline can include, by the effect that stands for it where it is not.
 const ALSO_INCLUDED: [(&str, &str); 2] =
@@ -72,10 +72,11 @@ pub fn camera_effects(camera: &Camera, recording: &str) -> Result<Vec<Active>> {
 /// `camera` without what `effects` bring: an effect that the camera's simulation includes could not be found in its recordings.
 #[must_use]
 pub fn included_without(mut camera: Camera, effects: &[Active]) -> Camera {
-    camera.included_physics.retain(|included| {
-        let brought = |active: &Active| ALSO_INCLUDED.contains(&(active.effect.name, included));
-        !effects.iter().any(brought)
-    });
+    let brought = |name: &str| effects.iter().any(|active| active.effect.name == name);
+    for (name, included) in ALSO_INCLUDED.into_iter().filter(|(name, _)| brought(name)) {
+        camera.included_physics.retain(|known| known != included);
+        camera.effects.retain(|text| effect_name(text) != name);
+    }
     camera
 }
 
