@@ -249,6 +249,7 @@ fn refusals_say_what_would_be_right() {
         (vec!["--size", "0x5"], "columns x rows"),
         (vec!["--frequency-hz", "nan"], "--frequency-hz: NaN"),
         (vec!["--recordings", "four-dark,harmonics,four-dark"], "four-dark is there twice"),
+        (vec!["--effect", "image_lag", "--effect", "image_lag:share=0.1"], "image_lag is there twice"),
         (
             vec!["--size", "4096x4096", "--recordings", "four-dark"],
         ),
@@ -383,4 +384,17 @@ fn a_diagnosed_falloff_is_simulated_once() {
         again == Recording::open(&out.join("four-motion")).unwrap().raw.codes(),
         "not the recorded codes"
     );
+}
+
+/// Effects of one place act in the registry's order, whichever the command line has first.
+#[test]
+fn the_order_on_the_command_line_changes_nothing() {
+    for two in [
+        ["saturation:missing=0.6", "intensity_nonlinearity"],
+        ["adc_nonlinearity", "intensity_nonlinearity"],
+        ["multipath_interference", "frame_gain"],
+    ] {
+        let codes = |one: &str, other: &str| motion_codes(&["--effect", one, "--effect", other]);
+        assert!(codes(two[0], two[1]) == codes(two[1], two[0]), "{two:?}");
+    }
 }

@@ -110,6 +110,12 @@ impl Simulate {
         let courses: Vec<Course> = names.iter().map(|name| plan.course(name)).collect::<Result<_>>()?;
         if let Some(present) = names.iter().map(|name| out.join(name)).find(|folder| folder.exists()) {
             return Err(Problem::in_file(&present, "is there already").expected("a new campaign"));
+        let twice = (1..effects.len())
+            .find(|&n| effects[..n].iter().any(|before| before.effect.name == effects[n].effect.name));
+        if let Some(twice) = twice {
+            let found = format!("{} is there twice", effects[twice].effect.name);
+            return Err(Problem::at("--effect", found).expected("each effect once"));
+        }
         }
         let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
         let chains: Vec<Chain> = names
