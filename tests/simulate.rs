@@ -250,6 +250,7 @@ fn refusals_say_what_would_be_right() {
         (vec!["--frequency-hz", "nan"], "--frequency-hz: NaN"),
         (vec!["--recordings", "four-dark,harmonics,four-dark"], "four-dark is there twice"),
         (vec!["--effect", "image_lag", "--effect", "image_lag:share=0.1"], "image_lag is there twice"),
+        (vec!["--frame-period-s", "1"], "leaves the rail within a set\n  expected: at most 0."),
         (
             vec!["--size", "4096x4096", "--recordings", "four-dark"],
         ),
