@@ -250,6 +250,7 @@ fn refusals_say_what_would_be_right() {
         (vec!["--frequency-hz", "nan"], "--frequency-hz: NaN"),
         (vec!["--recordings", "four-dark,harmonics,four-dark"], "four-dark is there twice"),
         (vec!["--effect", "image_lag", "--effect", "image_lag:share=0.1"], "image_lag is there twice"),
+        (vec!["--effect", "fixed_point:bits_cut=2.5"], "bits_cut = 2.5\n  expected: a whole number"),
         (vec!["--frame-period-s", "1"], "leaves the rail within a set\n  expected: at most 0."),
         (
             vec!["--size", "4096x4096", "--recordings", "four-dark"],
@@ -385,6 +386,24 @@ fn a_diagnosed_falloff_is_simulated_once() {
         again == Recording::open(&out.join("four-motion")).unwrap().raw.codes(),
         "not the recorded codes"
     );
+}
+
+/// An effect of nothing is said to be one, on standard error; the fixed point's zero bits, too.
+#[test]
+fn an_effect_that_is_off_is_said_to_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let noted = |name: &str, effect: &str| {
+        let mut command = Command::cargo_bin("vuris").unwrap();
+        command.args(["simulate", "--recordings", "four-dark", "--effect", effect, "--out"]);
+        let output = command.arg(folder.path().join(name)).output().unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(
+        noted("off", "image_lag:share=0"),
+        "image_lag:share=0: every strength is off, so that this effect is absent\n"
+    );
+    assert_eq!(noted("on", "image_lag:share=0.02"), "");
 }
 
 /// Effects of one place act in the registry's order, whichever the command line has first.

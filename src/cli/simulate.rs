@@ -1,6 +1,6 @@
 //! `vuris simulate`
 
-use super::print::{counted, say};
+use super::print::{counted, remark, say};
 use super::progress;
 use crate::bench::{
     Course, Plan, Simulation, camera_effects, chain, included_without, injection_for, practice_camera,
@@ -154,6 +154,9 @@ impl Simulate {
                 raw,
                 sets: plan.as_read(course, number),
                 extra_columns: Vec::new(),
+        for (text, _) in self.effect.iter().zip(&effects).filter(|(_, active)| active.is_off()) {
+            remark(format_args!("{text}: every strength is off, so that this effect is absent"));
+        }
                 mask: Some(chain.pixels.target.clone()),
                 frame_times_s: course.frame_times_s.clone(),
                 camera: Some(camera.clone()),
