@@ -252,7 +252,10 @@ fn refusals_say_what_would_be_right() {
         (vec!["--effect", "image_lag", "--effect", "image_lag:share=0.1"], "image_lag is there twice"),
         (vec!["--effect", "fixed_point:bits_cut=2.5"], "bits_cut = 2.5\n  expected: a whole number"),
         (vec!["--frame-period-s", "1"], "leaves the rail within a set\n  expected: at most 0."),
-        (vec!["--size", "4096x4096"], "125.6 GB of codes\n  expected: at most 2 GB a recording\n  way out: "),
+        (
+            vec!["--size", "4096x4096"],
+            "four-sweep: 384 frames of 4096 x 4096 are 25.8 GB of codes\n  expected: at most 2 GB a recording\n  way out: ",
+        ),
         (
             vec!["--size", "4096x4096", "--recordings", "four-dark"],
             "--size, --recordings: four-dark: 160 frames",
