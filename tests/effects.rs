@@ -259,11 +259,12 @@ fn broken_effects_are_caught() {
 #[test]
 fn formulas_act_after_the_registrys_effects() {
     let formula = Formula::new(Target::Signal, "a * signal", &["a"]).unwrap();
+    static PARAMETERS: [Parameter; 1] = [Parameter::strength("a", "1", 0.0, (-1.0, 1.0), 1.0)];
     let twice: &'static Effect = Box::leak(Box::new(Effect {
         name: "twice",
         sentence: "",
         reference: "",
-        parameters: &[Parameter::strength("a", "1", 0.0, (-1.0, 1.0), 1.0)],
+        parameters: &PARAMETERS,
         place: Place::Charge,
         chance: Chance::None,
         looks_back: false,
