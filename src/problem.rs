@@ -26,6 +26,9 @@ pub struct Problem {
 /// The result of anything that a user's input can make fail.
 pub type Result<T> = std::result::Result<T, Problem>;
 
+/// From this likeness on (Jaro and Winkler's; 1 for equals) a name may be meant by another: a slip of the keyboard, or a beginning.
+const ALIKE: f64 = 0.8;
+
 impl Problem {
     /// A problem at `place` (a file, or a file and line), where `found` is what was met there.
     pub fn at(place: impl fmt::Display, found: impl fmt::Display) -> Self {
@@ -52,6 +55,23 @@ impl Problem {
     pub fn expected(mut self, expected: impl fmt::Display) -> Self {
         self.expected = Some(expected.to_string());
         self
+    }
+
+    /// The same problem at another `place`: in a file, of what stands there as it would stand on the command line.
+    #[must_use]
+    pub fn moved_to(self, place: impl fmt::Display) -> Self {
+        Self { place: place.to_string(), ..self }
+    }
+
+    /// As the way out, that one of the names `known` that `name` looks most like.
+    #[must_use]
+    pub fn nearest<'a>(self, name: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
+        let likeness = |known: &str| strsim::jaro_winkler(name, known);
+        let nearest = known.into_iter().max_by(|one, other| likeness(one).total_cmp(&likeness(other)));
+        match nearest.filter(|known| likeness(known) > ALIKE) {
+            Some(known) => self.remedy(format_args!("did you mean {known}?")),
+            None => self.remedy("correct the spelling, or remove it"),
+        }
     }
 
     /// What the user can do.

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vuris::bench::{practice_camera, sensor};
 use vuris::frames::Geometry;
 use vuris::physics::{
-    Active, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Included, Memory, Moment,
-    Parameter, Place, Stage,
+    Active, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Formula, Included, Memory, Moment,
+    Parameter, Place, Stage, Target,
 };
 
 const SMALL: Geometry = Geometry { width: 8, height: 6 };
@@ -253,4 +253,34 @@ fn broken_effects_are_caught() {
             assert_eq!(law(effect).is_empty(), name != breaks, "{name} on what breaks: {breaks}");
         }
     }
+}
+
+/// A user's formula acts after the registry's effects of its place, whichever the chain has first.
+#[test]
+fn formulas_act_after_the_registrys_effects() {
+    let formula = Formula::new(Target::Signal, "a * signal", &["a"]).unwrap();
+    static PARAMETERS: [Parameter; 1] = [Parameter::strength("a", "1", 0.0, (-1.0, 1.0), 1.0)];
+    let twice: &'static Effect = Box::leak(Box::new(Effect {
+        name: "twice",
+        sentence: "",
+        reference: "",
+        parameters: &PARAMETERS,
+        place: Place::Charge,
+        chance: Chance::None,
+        looks_back: false,
+        act: |_, _| (),
+        formula: Some(formula),
+    }));
+    let crosstalk = EFFECTS.iter().find(|effect| effect.name == "electrical_crosstalk").unwrap();
+    let signal = |effects: &[&'static Effect]| {
+        let active = effects.iter().map(|effect| Active { effect, values: effect.example() });
+        let chain = chain_of(active.collect());
+        chain.expose(moments()[1], Memory::default()).signal_dn
+    };
+    let doubled: Vec<f64> = signal(&[crosstalk]).into_iter().map(|signal| signal + signal).collect();
+    assert_eq!(signal(&[crosstalk, twice]), doubled);
+    assert_eq!(signal(&[twice, crosstalk]), doubled);
+    // The order would be seen.
+    assert_ne!(signal(&[twice]), signal(&[crosstalk]));
+    assert_ne!(doubled, signal(&[]).into_iter().map(|signal| signal + signal).collect::<Vec<_>>());
 }

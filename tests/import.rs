@@ -490,6 +490,10 @@ fn what_is_not_known_is_asked_for_and_never_made_up() {
         &["given without --adc-bits, --gain-e-per-dn, --read-noise-e, --focal-length-px"],
     );
     with("--adc-bits 17", &["--adc-bits: 17"]);
+    with(
+        "--adc-bits 12 --pedestal-dn 4095 --gain-e-per-dn 1 --read-noise-e 1 --focal-length-px 40",
+        &["--pedestal-dn: 4095", "below the greatest code of 12 bits", "way out: "],
+    );
     with("--saturation-code 4000", &["without --adc-bits"]);
     with("--adc-bits 16 --saturation-code 70000", &["from 1 to 65535"]);
     with("--kind sweep", &["--kind: sweep", "phase_sweep"]);

@@ -8,7 +8,7 @@ use vuris::paper::figure_05::means_m;
 use vuris::paper::figure_07::with_falloff;
 use vuris::paper::linearity::{by_moving, by_phase_stepping, errors};
 use vuris::paper::motion::{VELOCITY_M_S, error_curve, places_m};
-use vuris::paper::open_question::{MEASURED, chi_squared, fits};
+use vuris::paper::open_question::{MEASURED, chi_squared, fits, least_ratio, square_waves};
 use vuris::paper::residual::{rms, span};
 use vuris::paper::rivals::{
     CALIBRATIONS, REMEDIES, RUNS, at_once_rms_m, calibrated_rms_m, near_edges, ordered_rms_m, take,
@@ -174,6 +174,40 @@ fn the_fit_is_the_least_of_all() {
         (all[3].random_m.unwrap() - 0.010).abs() < 0.002 && (all[5].random_m.unwrap() - 0.010).abs() < 0.002
     );
     assert_eq!(chi_squared(&MEASURED.map(|measured| measured.value)), 0.0);
+}
+
+/// Half a turn from its crest every odd harmonic of the waveform is negative and every even one positive, by the paper's own Table I; the
+/// square waves' ratio is predicted as a whole simulation has it.
+#[test]
+fn the_fitted_ratios_bound_is_the_waveforms_depth() {
+    let depth = 1.0 - 1.0 / 105.0 + 1.0 / 31.0 - 1.0 / 500.0 + 1.0 / 1020.0 - 1.0 / 926.0 + 1.0 / 1449.0;
+    assert!((least_ratio(&Conditions::table_1()) - depth).abs() < 1e-9 && (depth - 1.0213).abs() < 5e-5);
+    assert!((least_ratio(&Conditions::sinusoidal()) - 1.0).abs() < 1e-12);
+    let methods = Method::both().unwrap();
+    let [.., low, high] = fits(&methods)[1].free.unwrap();
+    assert!(low < depth && depth < high, "the table's note says that the bound lies within {low} to {high}");
+    let ratio = std::f64::consts::PI.powi(2) / 8.0;
+    let whole = methods.each_ref().map(|method| motion(method, with_falloff(ratio))).concat();
+    for (predicted, whole) in square_waves(&methods).predicted_m.into_iter().zip(whole) {
+        assert!((predicted - whole).abs() < 1e-9, "{predicted}, not {whole}");
+    }
+}
+
+/// What a remark says of noise is what the rows with noise have.
+#[test]
+fn remarks_on_noise_are_those_of_the_rows_with_noise() {
+    let all = quantities(&Method::both().unwrap());
+    let (mut told, mut enough) = (0, 0);
+    for quantity in all.iter().filter(|quantity| quantity.why.starts_with("no noise: with noise, below")) {
+        let what = quantity.what.replace("and falloff", "falloff and noise, a run");
+        let noisy = all.iter().find(|other| other.what == what).unwrap();
+        let number = format!("below, {:.1} mm", 1e3 * noisy.predicted_m);
+        assert!(quantity.why.contains(&number), "{}: {}", quantity.what, quantity.why);
+        assert_eq!(quantity.why.contains("not enough"), noisy.is_within() == Some(false), "{}", quantity.why);
+        told += 1;
+        enough += usize::from(noisy.is_within() == Some(true));
+    }
+    assert_eq!((told, enough), (3, 1));
 }
 
 /// What a calibration leaves of the error at its own frequency is a smaller share than at another, where the waveform is another, too. (In

@@ -10,7 +10,7 @@ use support::{hdl_tool, said};
 use vuris::bench::{Course, Plan, Simulation, chain, injection, practice_camera, sensor, simulate};
 use vuris::frames::Geometry;
 use vuris::physics::{Active, EFFECTS, Place, Stage};
-use vuris::recording::{Kind, Recording, write_camera};
+use vuris::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, Kind, Recording, write_camera};
 
 fn vuris(arguments: &[&str], out: &Path, threads: &str) -> (bool, String) {
     let mut command = Command::cargo_bin("vuris").unwrap();
@@ -249,6 +249,17 @@ fn refusals_say_what_would_be_right() {
         (vec!["--size", "0x5"], "columns x rows"),
         (vec!["--frequency-hz", "nan"], "--frequency-hz: NaN"),
         (vec!["--recordings", "four-dark,harmonics,four-dark"], "four-dark is there twice"),
+        (vec!["--effect", "image_lag", "--effect", "image_lag:share=0.1"], "image_lag is there twice"),
+        (vec!["--effect", "fixed_point:bits_cut=2.5"], "bits_cut = 2.5\n  expected: a whole number"),
+        (vec!["--frame-period-s", "1"], "leaves the rail within a set\n  expected: at most 0."),
+        (
+            vec!["--size", "4096x4096"],
+            "four-sweep: 384 frames of 4096 x 4096 are 25.8 GB of codes\n  expected: at most 2 GB a recording\n  way out: ",
+        ),
+        (
+            vec!["--size", "4096x4096", "--recordings", "four-dark"],
+            "--size, --recordings: four-dark: 160 frames",
+        ),
     ] {
         let out = folder.path().join("campaign");
         let (good, text) = vuris(&arguments, &out, "1");
@@ -305,4 +316,110 @@ fn fixed_point_is_read_from_a_specification() {
     let (good, text) =
         vuris(&["--effect", "fixed_point:pipeline=none.toml"], &folder.path().join("none"), "2");
     assert!(!good && text.contains("none.toml") && text.contains("presets vuris"), "{text}");
+}
+
+/// The camera with these included and these effects, its file in `folder`.
+fn described(folder: &Path, included: &[&str], effects: &[&str]) -> String {
+    let owned = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
+    let camera = Camera {
+        included_physics: owned(included),
+        effects: owned(effects),
+        ..practice_camera(Geometry { width: 24, height: 18 })
+    };
+    let file = folder.join("camera.toml");
+    std::fs::write(&file, camera.to_toml()).unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+/// Raw codes of the recording four-motion.
+fn motion_codes(arguments: &[&str]) -> Vec<u32> {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("campaign");
+    let (good, text) = vuris(&[&["--recordings", "four-motion"], arguments].concat(), &out, "2");
+    assert!(good, "{text}");
+    Recording::open(&out.join("four-motion")).unwrap().raw.codes().to_vec()
+}
+
+/// Falloff and motion act once, whichever list of camera.toml names them, with the share that stands there; not twice.
+#[test]
+fn what_the_baseline_can_include_acts_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let by = |included: &[&str], effects: &[&str]| {
+        motion_codes(&["--camera", &described(folder.path(), included, effects)])
+    };
+    let both = by(&[AXIAL_MOTION, INVERSE_SQUARE_FALLOFF], &[]);
+    assert!(both == by(&[AXIAL_MOTION], &["inverse_square_falloff:share=1.0"]), "falloff among the effects");
+    assert!(both == by(&[AXIAL_MOTION], &["inverse_square_falloff"]), "falloff at its usual size");
+    assert!(both == by(&[INVERSE_SQUARE_FALLOFF], &["axial_motion:share=1.0"]), "motion among the effects");
+    let without = by(&[AXIAL_MOTION], &[]);
+    assert!(without != both, "falloff changes nothing");
+    assert!(without == by(&[AXIAL_MOTION], &["inverse_square_falloff:share=0.0"]), "a falloff of nothing");
+    // What the command line injects stands in the place of either.
+    let path = described(folder.path(), &[AXIAL_MOTION], &["inverse_square_falloff"]);
+    assert!(both == motion_codes(&["--camera", &path, "--effect", "inverse_square_falloff"]), "injected too");
+    for (included, effect) in [
+        (INVERSE_SQUARE_FALLOFF, "inverse_square_falloff:share=0.5"),
+        (INVERSE_SQUARE_FALLOFF, "inverse_square_falloff@four-motion"),
+        (AXIAL_MOTION, "axial_motion"),
+    ] {
+        let path = described(folder.path(), &[included], &[effect]);
+        let (good, text) = vuris(&["--camera", &path], &folder.path().join("out"), "1");
+        assert!(!good && text.contains(&path) && text.contains("physics.effects"), "{text}");
+        assert!(
+            text.contains(effect) && text.contains("physics.included") && text.contains("way out"),
+            "{text}"
+        );
+    }
+}
+
+/// What a diagnosis writes of a falloff that it found is simulated once: as the recordings that it was found in.
+#[test]
+fn a_diagnosed_falloff_is_simulated_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("campaign");
+    let (good, text) =
+        vuris(&["--recordings", "four-rail,four-motion", "--effect", "inverse_square_falloff"], &out, "2");
+    assert!(good, "{text}");
+    let camera = folder.path().join("found.toml");
+    let mut diagnose = Command::cargo_bin("vuris").unwrap();
+    diagnose.arg("diagnose").arg(&out).arg("--write-camera").arg(&camera).assert().success();
+    let found = Camera::read(&camera).unwrap();
+    let named = found.included_physics.iter().chain(&found.effects);
+    assert_eq!(named.filter(|name| name.starts_with(INVERSE_SQUARE_FALLOFF)).count(), 1, "{found:?}");
+    let again = motion_codes(&["--camera", camera.to_str().unwrap()]);
+    assert!(
+        again == Recording::open(&out.join("four-motion")).unwrap().raw.codes(),
+        "not the recorded codes"
+    );
+}
+
+/// An effect of nothing is said to be one, on standard error; the fixed point's zero bits, too.
+#[test]
+fn an_effect_that_is_off_is_said_to_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let noted = |name: &str, effect: &str| {
+        let mut command = Command::cargo_bin("vuris").unwrap();
+        command.args(["simulate", "--recordings", "four-dark", "--effect", effect, "--out"]);
+        let output = command.arg(folder.path().join(name)).output().unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(
+        noted("off", "image_lag:share=0"),
+        "image_lag:share=0: every strength is off, so that this effect is absent\n"
+    );
+    assert_eq!(noted("on", "image_lag:share=0.02"), "");
+}
+
+/// Effects of one place act in the registry's order, whichever the command line has first.
+#[test]
+fn the_order_on_the_command_line_changes_nothing() {
+    for two in [
+        ["saturation:missing=0.6", "intensity_nonlinearity"],
+        ["adc_nonlinearity", "intensity_nonlinearity"],
+        ["multipath_interference", "frame_gain"],
+    ] {
+        let codes = |one: &str, other: &str| motion_codes(&["--effect", one, "--effect", other]);
+        assert!(codes(two[0], two[1]) == codes(two[1], two[0]), "{two:?}");
+    }
 }

@@ -36,6 +36,9 @@ pub struct Residuals {
     pub over_frame: Vec<Line>,
     /// Error of the range, mm, `[row, column]`, of a still target.
     pub over_pixels: Vec<f64>,
+    /// The largest error of the range, mm, as a root mean square over the target's pixels, of all points of the curves. Theirs is the
+    /// mean over those pixels, in which a slope over the image cancels.
+    pub largest_rms_mm: f64,
 }
 
 impl Residuals {
@@ -115,10 +118,16 @@ impl Atlas {
         let sweep =
             |velocity_m_s| course(scheme, (0..OFFSETS).map(|n| (STILL_M, velocity_m_s, offset_rad(n))));
         let turns = STILL_M / unambiguous_range_m(FREQUENCY_HZ);
+        let mut largest_rms_mm: f64 = 0.0;
+        let mut mean = |errors: &[f64]| {
+            let squares: Vec<f64> = errors.iter().map(|error| error * error).collect();
+            largest_rms_mm = largest_rms_mm.max(self.mean(&squares).sqrt());
+            self.mean(errors)
+        };
         let over_phase = VELOCITIES_M_S.map(|(label, velocity_m_s)| {
             let errors = self.errors_mm(pair, scheme, &sweep(velocity_m_s)).into_iter().enumerate();
             let phase = |n: usize| (turns - n as f64 / OFFSETS as f64).rem_euclid(1.0);
-            let mut points: Vec<_> = errors.map(|(n, error)| (phase(n), self.mean(&error))).collect();
+            let mut points: Vec<_> = errors.map(|(n, error)| (phase(n), mean(&error))).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
             Line { label, points }
         });
@@ -126,7 +135,7 @@ impl Atlas {
         let over_distance = VELOCITIES_M_S.map(|(label, velocity_m_s)| {
             let course = course(scheme, (0..POSITIONS).map(|n| (position_m(n), velocity_m_s, 0.0)));
             let errors = self.errors_mm(pair, scheme, &course);
-            let points = errors.iter().enumerate().map(|(n, error)| (position_m(n), self.mean(error)));
+            let points = errors.iter().enumerate().map(|(n, error)| (position_m(n), mean(error)));
             Line { label, points: points.collect() }
         });
         let changes = |(label, velocity_m_s): (&'static str, f64)| Line {
@@ -140,6 +149,7 @@ impl Atlas {
             over_distance: over_distance.into(),
             over_frame: VELOCITIES_M_S[..2].iter().copied().map(changes).collect(),
             over_pixels: self.errors_mm(pair, scheme, &still).concat(),
+            largest_rms_mm,
         }
     }
 

@@ -56,12 +56,14 @@ pub fn chain(camera: &Camera, pixels: Arc<Pixels>, effects: Vec<Active>) -> Chai
         .skip(1)
         .map(|(number, (&amplitude, &phase_rad))| Harmonic { number, amplitude, phase_rad })
         .collect();
+    // Not `Camera::includes`: an effect with a value acts with the others, and is not in the baseline besides.
+    let included = |name: &str| camera.included_physics.iter().any(|included| included == name);
     Chain {
         pixels,
         correlation: Correlation::with_harmonics(&harmonics),
         included: Included {
-            axial_motion: camera.includes(AXIAL_MOTION),
-            inverse_square_falloff: camera.includes(INVERSE_SQUARE_FALLOFF),
+            axial_motion: included(AXIAL_MOTION),
+            inverse_square_falloff: included(INVERSE_SQUARE_FALLOFF),
         },
         effects,
     }

@@ -2,7 +2,7 @@
 
 use crate::physics::{Active, EFFECTS, Effect, Parameter, effects};
 use crate::problem::{Problem, Result};
-use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
+use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, effect_name};
 
 /// What the baseline can include, by the effect that stands for it where it is not.
 const ALSO_INCLUDED: [(&str, &str); 2] =
@@ -17,7 +17,9 @@ pub fn injection(text: &str) -> Result<Active> {
     let (name, settings) = text.split_once(':').unwrap_or((text, ""));
     let effect = effects::named(name).ok_or_else(|| {
         let names: Vec<&str> = EFFECTS.iter().map(|effect| effect.name).collect();
-        Problem::at("--effect", format_args!("no effect is called {name}")).expected(names.join(", "))
+        Problem::at("--effect", format_args!("no effect is called {name}"))
+            .expected(names.join(", "))
+            .nearest(name, names)
     })?;
     if settings.is_empty() {
         return Ok(Active { effect, values: effect.example() });
@@ -38,15 +40,20 @@ fn place(effect: &Effect, parameter: &str) -> Result<usize> {
         let names: Vec<&str> = effect.parameters.iter().map(|known| known.name).collect();
         Problem::at("--effect", format_args!("{} has no parameter {parameter}", effect.name))
             .expected(names.join(", "))
+            .nearest(parameter, names)
     })
 }
 
 fn within(effect: &Effect, parameter: &Parameter, text: &str) -> Result<f64> {
     let (low, high) = parameter.bounds;
-    text.parse().ok().filter(|value| (low..=high).contains(value)).ok_or_else(|| {
+    // There is no half of a bit.
+    let is_whole = parameter.unit == "bit";
+    let fits = |value: &f64| (low..=high).contains(value) && (!is_whole || value.fract() == 0.0);
+    text.parse().ok().filter(fits).ok_or_else(|| {
         let found = format!("{}: {} = {text}", effect.name, parameter.name);
         let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
-        Problem::at("--effect", found).expected(format_args!("a number from {low} to {high}{unit}"))
+        let number = if is_whole { "a whole number" } else { "a number" };
+        Problem::at("--effect", found).expected(format_args!("{number} from {low} to {high}{unit}"))
     })
 }
 
@@ -58,10 +65,8 @@ pub fn camera_effects(camera: &Camera, recording: &str) -> Result<Vec<Active>> {
     let mut effects = Vec::new();
     for text in &camera.effects {
         let (effect, recordings) = text.split_once('@').unwrap_or((text, ""));
-        let active = injection(effect).map_err(|problem| {
-            Problem::at("camera.toml: physics.effects", problem.found())
-                .expected("effects as `vuris simulate --effect` takes them, with numbers")
-        })?;
+        let active = injection(effect)
+            .map_err(|problem| problem.moved_to(format_args!("camera.toml: physics.effects: {text}")))?;
         if recordings.is_empty() || recordings.split(',').any(|known| known == recording) {
             effects.push(active);
         }
@@ -72,10 +77,11 @@ pub fn camera_effects(camera: &Camera, recording: &str) -> Result<Vec<Active>> {
 /// `camera` without what `effects` bring: an effect that the camera's simulation includes could not be found in its recordings.
 #[must_use]
 pub fn included_without(mut camera: Camera, effects: &[Active]) -> Camera {
-    camera.included_physics.retain(|included| {
-        let brought = |active: &Active| ALSO_INCLUDED.contains(&(active.effect.name, included));
-        !effects.iter().any(brought)
-    });
+    let brought = |name: &str| effects.iter().any(|active| active.effect.name == name);
+    for (name, included) in ALSO_INCLUDED.into_iter().filter(|(name, _)| brought(name)) {
+        camera.included_physics.retain(|known| known != included);
+        camera.effects.retain(|text| effect_name(text) != name);
+    }
     camera
 }
 
@@ -102,10 +108,43 @@ mod tests {
             ("image_lag:shares=0.1", "image_lag has no parameter shares"),
             ("image_lag:share=0.9", "image_lag: share = 0.9\n  expected: a number from 0 to 0.5"),
             ("image_lag:share=NaN", "image_lag: share = NaN"),
+            ("imagelag", "way out: did you mean image_lag?"),
+            ("fixed_point:bits_cut=2.5", "bits_cut = 2.5\n  expected: a whole number from 0 to 6 bit"),
             ("image_lag:share", "parameter=value"),
         ] {
             let refusal = injection(text).unwrap_err().to_string();
             assert!(refusal.contains(words), "{refusal}");
+        }
+    }
+
+    #[test]
+    fn a_cameras_effects_are_refused_where_they_stand() {
+        let camera = |text: &str| Camera {
+            effects: vec![text.to_owned()],
+            ..practice_camera(Geometry { width: 24, height: 18 })
+        };
+        for (text, words) in [
+            ("image_lug:share=0.1@a", "no effect is called image_lug"),
+            ("image_lug:share=0.1@a", "expected: correlation_harmonics, "),
+            ("image_lug:share=0.1@a", "way out: did you mean image_lag?"),
+            ("image_lag:share=0.9", "image_lag: share = 0.9\n  expected: a number from 0 to 0.5"),
+        ] {
+            let refusal = camera_effects(&camera(text), "b").unwrap_err().to_string();
+            let place = format!("camera.toml: physics.effects: {text}: ");
+            assert!(refusal.starts_with(&place) && refusal.contains(words), "{refusal}");
+        }
+    }
+
+    /// Whether strengths are off is asked of strengths alone: a shape changes nothing where they are.
+    #[test]
+    fn off_is_every_strength() {
+        for (text, off) in [
+            ("image_lag:share=0", true),
+            ("image_lag", false),
+            ("ambient_flicker:frequency_hz=120", true),
+            ("ambient_flicker:sine=0.1", false),
+        ] {
+            assert_eq!(injection(text).unwrap().is_off(), off, "{text}");
         }
     }
 

@@ -58,13 +58,24 @@ impl Plan {
     /// The course of the recording called `name`, its positions without the encoder's noise.
     ///
     /// # Errors
-    /// A name that is not one of [`Plan::names`].
+    /// A name that is not one of [`Plan::names`], and a frame period so long that a moving target leaves the rail within a set.
     pub fn course(&self, name: &str) -> Result<Course> {
         let parts = name.split_once('-').unwrap_or((name, ""));
         let scheme_named =
             SCHEMES.iter().find(|(short, _)| *short == parts.0).and_then(|(_, full)| scheme(full));
         let kind = KINDS.iter().find(|(short, _)| *short == parts.1).map(|(_, kind)| *kind);
         match (scheme_named, kind) {
+            (Some(scheme), Some(Kind::Motion))
+                if self.frame_period_s > self.longest_period_s(scheme.steps()) =>
+            {
+                // Rounded down, so that what is said fits.
+                let longest_s = (1e6 * self.longest_period_s(scheme.steps())).floor() / 1e6;
+                let found =
+                    format!("{}: the target of {name} leaves the rail within a set", self.frame_period_s);
+                Err(Problem::at("--frame-period-s", found)
+                    .expected(format_args!("at most {longest_s} s"))
+                    .remedy("take frames faster, or leave the recording out (--recordings)"))
+            }
             (Some(scheme), Some(kind)) => Ok(self.of_kind(scheme, kind)),
             _ if name == HARMONICS => Ok(self.harmonics()),
             _ => Err(Problem::at("--recordings", format_args!("{name} is none"))
@@ -120,15 +131,33 @@ impl Plan {
             .collect()
     }
 
+    /// Where each run starts, m, and its velocity, m/s.
+    fn run_starts(&self) -> Vec<(f64, f64)> {
+        let mut draws = Draws::of(self.seed, u64::MAX - 1);
+        let start = |velocity_m_s: f64| {
+            let drawn_m = RUN_START_WITHIN_M * draws.even();
+            let away = velocity_m_s > 0.0;
+            (if away { RUN_STARTS_M.0 + drawn_m } else { RUN_STARTS_M.1 - drawn_m }, velocity_m_s)
+        };
+        VELOCITIES_M_S.into_iter().flat_map(|velocity| [velocity; RUNS]).map(start).collect()
+    }
+
+    /// The longest frame period at which every frame of every run is on the rail, s. A run of several sets is no longer than
+    /// [`RUN_M`]; one of a single set ends with its last frame.
+    fn longest_period_s(&self, frames: usize) -> f64 {
+        let (near_m, far_m) = (RAIL.1, RAIL.1 + (RAIL.0 - 1) as f64 * RAIL.2);
+        let longest_s = |(start_m, velocity_m_s): (f64, f64)| {
+            let room_m = if velocity_m_s > 0.0 { far_m - start_m } else { start_m - near_m };
+            room_m / (velocity_m_s.abs() * (frames - 1) as f64)
+        };
+        self.run_starts().into_iter().map(longest_s).fold(f64::INFINITY, f64::min)
+    }
+
     /// Runs at constant velocity, sets back to back.
     fn runs(&self, frames: usize) -> Vec<SetRow> {
         let set_s = frames as f64 * self.frame_period_s;
-        let mut draws = Draws::of(self.seed, u64::MAX - 1);
         let (mut sets, mut start_s) = (Vec::new(), 0.0);
-        for velocity_m_s in VELOCITIES_M_S.into_iter().flat_map(|velocity| [velocity; RUNS]) {
-            let drawn_m = RUN_START_WITHIN_M * draws.even();
-            let away = velocity_m_s > 0.0;
-            let start_m = if away { RUN_STARTS_M.0 + drawn_m } else { RUN_STARTS_M.1 - drawn_m };
+        for (start_m, velocity_m_s) in self.run_starts() {
             // The distance that a run has is a whole number of sets but for rounding.
             let count = ((RUN_M / (velocity_m_s.abs() * set_s) + 1e-9).floor() as usize).max(1);
             sets.extend((0..count).map(|set| SetRow {
@@ -182,6 +211,31 @@ mod tests {
             }
             assert!(sets.iter().all(|row| (1.0..=3.4).contains(&row.position_m.unwrap())));
         }
+    }
+
+    /// Up to the period that the refusal names every frame is on the rail; a little beyond, one would not be.
+    #[test]
+    fn a_period_in_which_the_target_leaves_the_rail_is_refused() {
+        for name in ["four-motion", "wdft-motion"] {
+            let at = |frame_period_s| Plan { frame_period_s, ..PLAN }.course(name);
+            let refusal = at(1.0).unwrap_err().to_string();
+            let named = refusal.split("at most ").nth(1).and_then(|rest| rest.split(' ').next());
+            let longest_s: f64 = named.unwrap().parse().unwrap();
+            for period_s in [1e-4, 0.025, 0.1, 0.15, 0.2, 0.9 * longest_s, longest_s] {
+                for moment in at(period_s).unwrap().moments() {
+                    assert!((1.0..=3.5).contains(&moment.commanded_m()), "{name}, {period_s} s: {moment:?}");
+                }
+            }
+            assert!(at(longest_s + 2e-6).unwrap_err().to_string().contains("leaves the rail"), "{refusal}");
+            // What is refused there would have been beyond the rail's end.
+            let plan = Plan { frame_period_s: longest_s + 2e-6, ..PLAN };
+            let frames = at(0.025).unwrap().frames();
+            let last = |row: &SetRow| {
+                row.position_m.unwrap() + row.velocity_m_s * (frames - 1) as f64 * plan.frame_period_s
+            };
+            assert!(plan.runs(frames).iter().any(|row| !(1.0..=3.5).contains(&last(row))));
+        }
+        assert!(Plan { frame_period_s: 1.0, ..PLAN }.course("four-rail").is_ok());
     }
 
     #[test]

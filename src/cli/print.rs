@@ -26,3 +26,8 @@ pub(super) use say;
 pub(super) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
+
+/// A remark on standard error, for whoever watches; where it cannot be written, nobody does.
+pub(super) fn remark(text: Arguments) {
+    let _ = std::io::stderr().lock().write_fmt(format_args!("{text}\n"));
+}

@@ -1,6 +1,6 @@
 //! `vuris simulate`
 
-use super::print::{counted, say};
+use super::print::{counted, remark, say};
 use super::progress;
 use crate::bench::{
     Course, Plan, Simulation, camera_effects, chain, included_without, injection_for, practice_camera,
@@ -79,6 +79,25 @@ fn size(text: &str) -> std::result::Result<Geometry, String> {
     }
 }
 
+/// A recording's codes in memory, bytes at most: all of it is made before it is written.
+const MOST_BYTES: u64 = 2_000_000_000;
+
+/// Refuses a recording that is too large for memory.
+fn bounded(name: &str, course: &Course, geometry: Geometry) -> Result<()> {
+    let Geometry { width, height } = geometry;
+    let samples = (width as u64 * height as u64).saturating_mul(course.count() as u64);
+    let bytes = samples.saturating_mul(size_of::<u32>() as u64);
+    if bytes <= MOST_BYTES {
+        return Ok(());
+    }
+    let gigabytes = bytes as f64 / 1e9;
+    let found =
+        format!("{name}: {} frames of {width} x {height} are {gigabytes:.1} GB of codes", course.count());
+    Err(Problem::at("--size, --recordings", found)
+        .expected(format_args!("at most {} GB a recording", MOST_BYTES / 1_000_000_000))
+        .remedy("a smaller sensor (--size), or recordings of fewer frames (--recordings)"))
+}
+
 /// Harmonics of a waveform that is given in time.
 const HARMONICS: u32 = 15;
 
@@ -91,6 +110,12 @@ impl Simulate {
         let camera = self.described_camera()?;
         let effects: Vec<Active> =
             self.effect.iter().map(|text| injection_for(text, camera.adc_bits)).collect::<Result<_>>()?;
+        let twice = (1..effects.len())
+            .find(|&n| effects[..n].iter().any(|before| before.effect.name == effects[n].effect.name));
+        if let Some(twice) = twice {
+            let found = format!("{} is there twice", effects[twice].effect.name);
+            return Err(Problem::at("--effect", found).expected("each effect once"));
+        }
         let in_range = |name: &str, value: f64, low: f64, high: f64| {
             let found = format!("{value:e}");
             let problem =
@@ -111,6 +136,9 @@ impl Simulate {
         if let Some(present) = names.iter().map(|name| out.join(name)).find(|folder| folder.exists()) {
             return Err(Problem::in_file(&present, "is there already").expected("a new campaign"));
         }
+        for (name, course) in names.iter().zip(&courses) {
+            bounded(name, course, camera.geometry)?;
+        }
         let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
         let chains: Vec<Chain> = names
             .iter()
@@ -125,6 +153,9 @@ impl Simulate {
         {
             let cut = active.values[0];
             say!("{text}: cuts {cut} of the camera's {} bits", camera.adc_bits);
+        }
+        for (text, _) in self.effect.iter().zip(&effects).filter(|(_, active)| active.is_off()) {
+            remark(format_args!("{text}: every strength is off, so that this effect is absent"));
         }
         write_camera(&camera, out)?;
         for ((name, course), chain) in names.iter().zip(&courses).zip(&chains) {

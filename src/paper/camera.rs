@@ -7,7 +7,7 @@ use crate::physics::{
 };
 use crate::problem::{Problem, Result};
 use crate::units::{phase_rad, range_m, wrap_rad};
-use std::f64::consts::TAU;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// What a measurement of the motion experiments takes, s.
@@ -15,6 +15,9 @@ pub const MEASUREMENT_S: f64 = 0.125;
 /// Amplitude of a frame with the target at 1 m, DN: assumed. It fills the converter at some 0.8 m.
 const AMPLITUDE_1M_DN: f64 = 1200.0;
 const AMBIENT_DN: f64 = 100.0;
+
+/// Two square waves correlate to a triangle whose mean is π²/8 of its fundamental.
+pub const SQUARE_WAVES_RATIO: f64 = PI * PI / 8.0;
 
 /// What is assumed of waveform and light.
 #[derive(Debug, Clone)]
@@ -32,8 +35,7 @@ pub struct Conditions {
 impl Conditions {
     /// A pure sine, and nothing else.
     pub fn sinusoidal() -> Self {
-        // Two square waves correlate to a triangle whose mean is π²/8 of its fundamental.
-        let constant_ratio = TAU * TAU / 32.0;
+        let constant_ratio = SQUARE_WAVES_RATIO;
         Self { correlation: Correlation::sinusoidal(), falloff: false, constant_ratio, effects: Vec::new() }
     }
 

@@ -4,13 +4,14 @@
 //! fitted to the four numbers that the paper measured. Another hypothesis with one free number stands beside it: frames that are
 //! farther apart than 125 ms allow. Frames are linear in the ratio, so that two simulations tell all.
 
-use super::camera::{Camera, Conditions, Method, Set};
+use super::camera::{Camera, Conditions, Method, SQUARE_WAVES_RATIO, Set};
 use super::figure_07::with_falloff;
 use super::linearity::SEED;
 use super::motion::{VELOCITY_M_S, error_curve, places_m};
 use super::quantity::Measured;
 use super::residual::{mean, rms, span, without_mean};
 use crate::physics::{Draws, FREQUENCY_HZ};
+use std::f64::consts::TAU;
 
 /// What the paper measured at 2 m/s and 125 ms: RMS and range of four frames, then of the WDFT, m.
 pub const MEASURED: [Measured; 4] = [
@@ -29,6 +30,8 @@ const RANDOM_SPACING_M: f64 = 0.5e-3;
 /// Factors on the frame period, from 1.
 const FACTORS: u32 = 75;
 const FACTOR_SPACING: f64 = 0.02;
+/// Angles at which a waveform's depth is looked for.
+const ANGLES: u32 = 3600;
 const RUNS: usize = 100;
 const RUNS_STREAM: u64 = 5;
 /// From one measurement of a run to the next, in places of the curve: 0.25 m.
@@ -197,6 +200,23 @@ pub fn ratios(methods: &[Method; 2], waveforms: &[Conditions]) -> Option<(f64, f
         let (low, high) = ends.unwrap_or((ratio, ratio));
         Some((low.min(ratio), high.max(ratio)))
     })
+}
+
+/// Falloff with the ratio of two square waves, π²/8, and nothing free.
+pub fn square_waves(methods: &[Method; 2]) -> Fit {
+    let [four, wdft] = methods
+        .each_ref()
+        .map(|method| of_curve(&Curves::of(method, &Conditions::table_1()).errors_m(SQUARE_WAVES_RATIO)));
+    Fit::fixed(
+        "falloff; two square waves, ratio \u{3c0}\u{b2}/8 = 1.23; nothing free",
+        four_numbers(four, wdft),
+    )
+}
+
+/// The least ratio of constant to modulated light at which nowhere in its cycle the waveform of `conditions` is negative: its depth.
+pub fn least_ratio(conditions: &Conditions) -> f64 {
+    let angles = (0..ANGLES).map(|n| TAU * f64::from(n) / f64::from(ANGLES));
+    -angles.map(|angle_rad| conditions.correlation.at(angle_rad)).fold(f64::INFINITY, f64::min)
 }
 
 /// All hypotheses, from the one without free numbers on.

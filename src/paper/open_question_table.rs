@@ -1,9 +1,9 @@
 //! The table of the open question's hypotheses.
 
-use super::camera::Method;
+use super::camera::{Conditions, Method};
 use super::figure::{Table, mm};
 use super::linearity::random_phases;
-use super::open_question::{Fit, MEASURED, fits, ratios};
+use super::open_question::{Fit, MEASURED, fits, least_ratio, ratios, square_waves};
 
 fn row(fit: &Fit) -> Vec<String> {
     let free =
@@ -17,6 +17,19 @@ fn row(fit: &Fit) -> Vec<String> {
 /// Random phases of Table I's harmonics under which the ratio is fitted again.
 const PHASES: usize = 20;
 
+/// What the waveform's depth says of the ratios that were fitted.
+fn bound(fits: &[Fit]) -> String {
+    let least = least_ratio(&Conditions::table_1());
+    let ends = fits.get(1).and_then(|fit| fit.free).unwrap_or([f64::NAN; 3]);
+    format!(
+        "Assumed besides: a single-ended output, one tap whose charge cannot be negative. With Table I at phases 0 the waveform goes down to \
+         \u{2212}{least:.4} of the fundamental, so that a ratio below {least:.4} would be negative light at some phase: of the interval {:.2} to {:.2} \
+         only what lies above can be. A differential output (one tap less the other) has no such bound; most of the constant part, and with it of \
+         this explanation, would cancel there.",
+        ends[1], ends[2]
+    )
+}
+
 /// With and without falloff, and another hypothesis.
 pub fn table(methods: &[Method; 2]) -> Table {
     let measured = MEASURED.iter().map(|m| format!("{} \u{b1} {}", mm(m.value), mm(m.error)));
@@ -27,6 +40,11 @@ pub fn table(methods: &[Method; 2]) -> Table {
         "With {PHASES} random choices of the harmonics' phases instead of 0, the ratio of the second row is {:.2} to {:.2}.",
         ends.0, ends.1
     );
+    let hypotheses = fits(methods);
+    let bound = bound(&hypotheses);
+    let mut rows: Vec<Vec<String>> = std::iter::once(measured).chain(hypotheses.iter().map(row)).collect();
+    // Beside the other one without a free number.
+    rows.insert(2, row(&square_waves(methods)));
     let head = [
         "hypothesis",
         "free number (68 %)",
@@ -41,7 +59,7 @@ pub fn table(methods: &[Method; 2]) -> Table {
         name: "open-question",
         title: "The open question: motion at 2 m/s in 125 ms, with and without the light's falloff within a set",
         head: head.map(str::to_owned).to_vec(),
-        rows: std::iter::once(measured).chain(fits(methods).iter().map(row)).collect(),
+        rows,
         notes: [
             "Fitted: every number in the column of free numbers, to the four measured ones, whose errors are taken for independent (RMS and \
              range of the same runs are not, so that intervals are too narrow). Assumed: Table I with phases 0, 30 MHz, 1/d\u{b2} from the \
@@ -56,7 +74,7 @@ pub fn table(methods: &[Method; 2]) -> Table {
         ]
         .map(str::to_owned)
         .into_iter()
-        .chain([phases])
+        .chain([bound, phases])
         .collect(),
     }
 }

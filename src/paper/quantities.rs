@@ -1,11 +1,11 @@
 //! Every number of the paper, predicted beside measured.
 
-use super::camera::{Camera, Conditions, Method};
+use super::camera::{Camera, Conditions, Method, SQUARE_WAVES_RATIO};
 use super::figure::mm;
 use super::figure_07::with_falloff;
 use super::figure_12::{moved, phase_stepped, step_error};
 use super::linearity::{by_moving, by_phase_stepping, errors, random_phases};
-use super::motion::{VELOCITY_M_S, error_curve, runs};
+use super::motion::{Spread, VELOCITY_M_S, error_curve, runs};
 use super::open_question::MEASURED;
 use super::quantity::{Measured, Quantity};
 use super::residual::{rms, span};
@@ -18,7 +18,9 @@ const TABLE_1: &str = "phases of harmonics 0";
 const MOVED: &str = "the same, rail from 0.9 to 4.9 m, light and noise of the simulator's camera";
 const MOTION: &str = "phases 0, 30 MHz, no noise";
 const FALLOFF: &str = "the same, light as 1/d\u{b2} within a set, its constant part = its modulated part";
-const RUNS: &str = "the same, 100 runs with noise of the simulator's camera";
+const SQUARE_WAVES: &str =
+    "the same, light as 1/d\u{b2} within a set, its constant part \u{3c0}\u{b2}/8 of its modulated part";
+const RUNS: &str = "the parts of the light equal, 100 runs with noise of the simulator's camera";
 /// What the paper measured of the linearity, m.
 const LINEARITY: [Measured; 2] = [Measured::new(0.018, 0.002), Measured::new(0.003, 0.001)];
 
@@ -80,49 +82,56 @@ fn motion(method: &Method, measured: &[Measured]) -> Vec<Quantity> {
         let errors_m = errors(&error_curve(camera, method, VELOCITY_M_S));
         [rms(&errors_m), span(&errors_m)]
     };
+    let squares = Camera::new(with_falloff(SQUARE_WAVES_RATIO));
     let noisy = runs(&with, method);
-    let spread = |deviation_m| format!("\u{b1} {} mm from run to run", mm(deviation_m));
+    let noisy_m = [noisy.rms_m, noisy.span_m];
     let rows = [
-        ("phase change and harmonics", of_curve(&without), MOTION, [String::new(), String::new()]),
-        ("and falloff", of_curve(&with), FALLOFF, [String::new(), String::new()]),
-        (
-            "falloff and noise, a run",
-            [noisy.rms_m.mean, noisy.span_m.mean],
-            RUNS,
-            [spread(noisy.rms_m.deviation), spread(noisy.span_m.deviation)],
-        ),
+        ("phase change and harmonics", of_curve(&without), MOTION),
+        ("and falloff", of_curve(&with), FALLOFF),
+        ("and falloff, ratio \u{3c0}\u{b2}/8", of_curve(&squares), SQUARE_WAVES),
+        ("falloff and noise, a run", noisy_m.map(|spread| spread.mean), RUNS),
     ];
     let mut all = Vec::new();
-    for (what, predicted_m, assumed, whys) in rows {
-        for (((kind, predicted_m), measured), why) in
-            ["RMS", "range"].iter().zip(predicted_m).zip(measured).zip(whys)
+    for (what, predicted_m, assumed) in rows {
+        for (((kind, predicted_m), measured), noisy_m) in
+            ["RMS", "range"].iter().zip(predicted_m).zip(measured).zip(noisy_m)
         {
-            let quantity = Quantity {
-                what: format!("{}, motion, {what}, {kind}", method.name),
-                predicted_m,
-                measured: Some(*measured),
-                assumed,
-                why,
-            };
-            all.push(explained(quantity));
+            let what = format!("{}, motion, {what}, {kind}", method.name);
+            let measured = Some(*measured);
+            let quantity = Quantity { what, predicted_m, measured, assumed, why: String::new() };
+            all.push(Quantity { why: why_of_motion(&quantity, noisy_m), ..quantity });
         }
     }
     all
 }
 
-/// With what is known of why a motion error is not within its error.
-fn explained(quantity: Quantity) -> Quantity {
-    let short = quantity.measured.is_some_and(|measured| quantity.predicted_m < measured.value);
-    let why = match (quantity.is_within(), quantity.assumed, short) {
-        (Some(false), MOTION, true) => "light does not fall off within a set; no noise",
-        (Some(false), FALLOFF, true) => "no noise: see the next rows",
-        (Some(false), FALLOFF, false) => "ratio of the light's parts assumed: see the open question",
-        (Some(false), _, true) => "noise, and what else moves, not known",
-        (Some(false), _, false) => "more noise assumed than there was, or less light lost",
-        _ => "",
-    };
-    let parts = [quantity.why.as_str(), why].into_iter().filter(|part| !part.is_empty());
-    Quantity { why: parts.collect::<Vec<_>>().join("; "), ..quantity }
+/// What is known of why a motion error is not within its error; `noisy_m` is the same error with noise, the light's parts equal.
+fn why_of_motion(quantity: &Quantity, noisy_m: Spread) -> String {
+    let Some(measured) = quantity.measured else { return String::new() };
+    let short = quantity.predicted_m < measured.value;
+    let misses = quantity.is_within() == Some(false);
+    match quantity.assumed {
+        MOTION if misses => "light does not fall off within a set; no noise".to_owned(),
+        FALLOFF if misses && short => {
+            let with_noise = Quantity { predicted_m: noisy_m.mean, ..quantity.clone() };
+            let rest = if with_noise.is_within() == Some(false) {
+                ", not enough; ratio of the light's parts assumed"
+            } else {
+                ""
+            };
+            format!("no noise: with noise, below, {} mm{rest}", mm(noisy_m.mean))
+        }
+        SQUARE_WAVES if misses && short => "no noise".to_owned(),
+        FALLOFF | SQUARE_WAVES if misses => {
+            "ratio of the light's parts assumed: see the open question".to_owned()
+        }
+        RUNS => {
+            let spread = format!("\u{b1} {} mm from run to run", mm(noisy_m.deviation));
+            let why = if misses { "; noise and ratio of the light's parts assumed" } else { "" };
+            format!("{spread}{why}")
+        }
+        _ => String::new(),
+    }
 }
 
 fn equivalence(method: &Method) -> Vec<Quantity> {

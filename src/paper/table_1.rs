@@ -52,7 +52,7 @@ pub fn table() -> Table {
         rows: MEASURED.iter().zip(1..).map(row).collect(),
         notes: vec![
             "Input and output are the same numbers here: what is tested is the measurement by 64 frames, not the waveform.".to_owned(),
-            "Noise is assumed: that of the simulator's camera with the target at 1 m, 100 sets averaged. It adds to what is weak.".to_owned(),
+            "Noise is assumed: that of the simulator's camera with the target at 1 m, 100 sets averaged. It shifts what is weak, up or down.".to_owned(),
         ],
     }
 }

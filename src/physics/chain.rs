@@ -16,7 +16,7 @@ pub struct Chain {
     pub correlation: Correlation,
     /// What the baseline takes into account of a target that moves.
     pub included: Included,
-    /// Effects, in any order: they act where they belong, and one after the other where they share a place.
+    /// Effects, in any order: they act where they belong, and in the registry's order where they share a place.
     pub effects: Vec<Active>,
 }
 
@@ -94,6 +94,18 @@ impl Chain {
         self.run_between(exposure, first, Place::Readout);
     }
 
+    /// The effects of `place` with their numbers, in the registry's order, whoever named them first; those that are in none, a user's
+    /// formulas, come last.
+    fn acting_at(&self, place: Place) -> Vec<(usize, &Active)> {
+        let here = self.effects.iter().enumerate().filter(|(_, active)| active.effect.place == place);
+        let mut here: Vec<(usize, &Active)> = here.collect();
+        if here.len() > 1 {
+            let known = |effect| effects::EFFECTS.iter().position(|known| std::ptr::eq(*known, effect));
+            here.sort_by_key(|(_, active)| known(active.effect).unwrap_or(usize::MAX));
+        }
+        here
+    }
+
     fn run_between(&self, exposure: &mut Exposure, first: Place, last: Place) {
         for place in Place::ALL.into_iter().filter(|place| (first..=last).contains(place)) {
             match place {
@@ -103,11 +115,9 @@ impl Chain {
                 Place::Correlation => exposure.correlate(),
                 Place::Charge => exposure.arrived_dn = Arc::new(exposure.signal_dn.clone()),
             }
-            for (number, Active { effect, values }) in self.effects.iter().enumerate() {
-                if effect.place == place {
-                    exposure.deviate = exposure.deviates.get(number).copied().unwrap_or(0.0);
-                    effect.act_on(values, exposure);
-                }
+            for (number, Active { effect, values }) in self.acting_at(place) {
+                exposure.deviate = exposure.deviates.get(number).copied().unwrap_or(0.0);
+                effect.act_on(values, exposure);
             }
         }
     }

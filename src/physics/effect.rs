@@ -173,3 +173,11 @@ pub struct Active {
     /// One value a parameter.
     pub values: Vec<f64>,
 }
+
+impl Active {
+    /// Whether every strength is off, so that it does nothing.
+    pub fn is_off(&self) -> bool {
+        let mut values = self.effect.parameters.iter().zip(&self.values);
+        values.all(|(parameter, value)| parameter.is_shape() || *value == parameter.off)
+    }
+}

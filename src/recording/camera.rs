@@ -10,6 +10,15 @@ pub const INVERSE_SQUARE_FALLOFF: &str = "inverse_square_falloff";
 /// In [`Camera::included_physics`]: the phase follows the recorded velocity from frame to frame.
 pub const AXIAL_MOTION: &str = "axial_motion_of_recorded_velocity";
 
+/// What can be included, by the effect that is the same with a value.
+const BASELINE: [(&str, &str); 2] =
+    [("axial_motion", AXIAL_MOTION), ("inverse_square_falloff", INVERSE_SQUARE_FALLOFF)];
+
+/// The name of an effect with values, as [`Camera::effects`] has it.
+pub fn effect_name(text: &str) -> &str {
+    text.split([':', '@']).next().unwrap_or(text)
+}
+
 /// A camera as its simulation knows it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
@@ -81,13 +90,25 @@ impl Camera {
             Some(physics) if physics.has("included") => physics.texts("included")?,
             Some(physics) => return Err(physics.refuse("included", "a list of strings, [] for no effect")),
         };
+        check_physics(file, &included_physics, &effects)?;
+        let adc_bits = sensor.integer("adc_bits", 8..=16)? as u32;
+        let pedestal_dn = sensor.number("pedestal_dn", 0.0..=65_535.0, "DN")?;
+        let full_scale = full_scale(adc_bits);
+        if pedestal_dn >= f64::from(full_scale) {
+            return Err(sensor
+                .refuse(
+                    "pedestal_dn",
+                    format_args!("below {full_scale}, the greatest code of {adc_bits} bits"),
+                )
+                .remedy("give the code at no light in codes of this converter, or correct sensor.adc_bits"));
+        }
         Ok(Self {
             geometry: Geometry {
                 width: sensor.integer("width", 1..=65_536)? as usize,
                 height: sensor.integer("height", 1..=65_536)? as usize,
             },
-            adc_bits: sensor.integer("adc_bits", 8..=16)? as u32,
-            pedestal_dn: sensor.number("pedestal_dn", 0.0..=65_535.0, "DN")?,
+            adc_bits,
+            pedestal_dn,
             gain_e_per_dn: sensor.number("gain_e_per_dn", 1e-9..=1e9, "electrons a code")?,
             read_noise_e: sensor.number("read_noise_e", 0.0..=1e9, "electrons")?,
             focal_length_px: sensor.number("focal_length_px", 1e-3..=1e9, "pixels")?,
@@ -98,10 +119,10 @@ impl Camera {
         })
     }
 
-    /// Whether the simulation includes `effect`, such as [`INVERSE_SQUARE_FALLOFF`].
+    /// Whether the simulation includes `effect`, such as [`INVERSE_SQUARE_FALLOFF`], by name or with a value.
     pub fn includes(&self, effect: &str) -> bool {
-        let is_it = |text: &String| text.split([':', '@']).next() == Some(effect);
-        self.included_physics.iter().any(|included| included == effect) || self.effects.iter().any(is_it)
+        self.included_physics.iter().any(|included| included == effect)
+            || self.effects.iter().any(|text| effect_name(text) == effect)
     }
 
     /// Radial over axial distance, √(1 + (x² + y²)/focal_length²), x and y in pixels from the sensor's centre.
@@ -120,7 +141,7 @@ impl Camera {
 
     /// The converter's greatest code.
     pub fn full_scale(&self) -> u32 {
-        (1 << self.adc_bits) - 1
+        full_scale(self.adc_bits)
     }
 
     /// The text of a file that reads as this camera.
@@ -148,6 +169,38 @@ impl Camera {
     }
 }
 
+/// The greatest code of a converter of `adc_bits` bits.
+fn full_scale(adc_bits: u32) -> u32 {
+    (1 << adc_bits) - 1
+}
+
+/// That everything included is known, and nothing is there both by name and with a value. Effects are the simulator's to know.
+fn check_physics(file: &str, included_physics: &[&str], effects: &[&str]) -> Result<()> {
+    let known = || BASELINE.into_iter().map(|(_, included)| included);
+    if let Some(name) = included_physics.iter().find(|name| !known().any(|known| known == **name)) {
+        let names: Vec<&str> = known().collect();
+        return Err(Problem::at(file, format_args!("physics.included has {name}"))
+            .expected(format_args!("{}; any other effect is one of physics.effects", names.join(", ")))
+            .nearest(name, known()));
+    }
+    let is_twice = |text: &&&str| {
+        let twice = |(name, included): &(&str, &str)| {
+            effect_name(text) == *name && included_physics.contains(included)
+        };
+        BASELINE.iter().any(twice)
+    };
+    match effects.iter().find(is_twice) {
+        None => Ok(()),
+        Some(text) => {
+            let found =
+                format!("physics.effects has {text}, which physics.included has too: it would act twice");
+            Err(Problem::at(file, found)
+                .expected("each in one of the two")
+                .remedy("remove it from physics.included, to keep its value; or from physics.effects"))
+        }
+    }
+}
+
 /// Amplitude and phase of the correlation's harmonics, the fundamental being the unit of both.
 fn waveform(file: &str, correlation: &Fields) -> Result<(Vec<f64>, Vec<f64>)> {
     let amplitude =
@@ -170,6 +223,11 @@ fn waveform(file: &str, correlation: &Fields) -> Result<(Vec<f64>, Vec<f64>)> {
             correlation.refuse("amplitude", "1.0 as the first: amplitudes relative to the fundamental")
         );
     }
+    if amplitude.iter().any(|amplitude| amplitude.abs() > 1.0) {
+        return Err(correlation
+            .refuse("amplitude", "numbers from -1 to 1: amplitudes relative to the fundamental")
+            .remedy("divide all by the fundamental's amplitude, not by a harmonic's"));
+    }
     if phase_rad.first() != Some(&0.0) {
         return Err(correlation.refuse("phase_rad", "0.0 as the first: phases relative to the fundamental"));
     }
@@ -191,6 +249,44 @@ mod tests {
         let none = Camera::parse("camera.toml", &format!("{MINIMAL}[physics]\nincluded = []")).unwrap();
         assert!(!none.includes(AXIAL_MOTION) && !none.includes(INVERSE_SQUARE_FALLOFF));
         assert_eq!(Camera::parse("again", &none.to_toml()).unwrap(), none);
+        let with_value = "[physics]\nincluded = []\neffects = [\"inverse_square_falloff:share=0.5@a\"]";
+        let with_value = Camera::parse("camera.toml", &format!("{MINIMAL}{with_value}")).unwrap();
+        assert!(!with_value.includes(AXIAL_MOTION) && with_value.includes(INVERSE_SQUARE_FALLOFF));
+    }
+
+    #[test]
+    fn nonsense_is_refused_with_what_would_be_right() {
+        let of = |from: &str, to: &str| Camera::parse("camera.toml", &MINIMAL.replace(from, to));
+        assert!(of("= 64", "= 4094.5").is_ok());
+        let end = "focal_length_px = 2.0\n";
+        for (from, to, words) in [
+            (
+                "= 64",
+                "= 4095",
+                "sensor.pedestal_dn = 4095\n  expected: below 4095, the greatest code of 12 bits",
+            ),
+            (
+                "= 12\npedestal_dn = 64",
+                "= 8\npedestal_dn = 255",
+                "expected: below 255, the greatest code of 8 bits",
+            ),
+            (
+                end,
+                "focal_length_px = 2\n[correlation]\namplitude = [1.0, 1.5]\nphase_rad = [0.0, 0.0]",
+                "correlation.amplitude = [1.0, 1.5]\n  expected: numbers from -1 to 1",
+            ),
+            (
+                end,
+                "focal_length_px = 2\n[physics]\nincluded = [\"axial_motion\"]",
+                "physics.included has axial_motion\n  expected: axial_motion_of_recorded_velocity, inverse_square_falloff; \
+                 any other effect is one of physics.effects\n  way out: did you mean axial_motion_of_recorded_velocity?",
+            ),
+            (end, "focal_length_px = 2\n[physics]\nincluded = [\"gravity\"]", "physics.included has gravity"),
+        ] {
+            let refusal = of(from, to).unwrap_err().to_string();
+            assert!(refusal.starts_with("camera.toml: ") && refusal.contains(words), "{refusal}");
+            assert!(refusal.contains("way out: "), "{refusal}");
+        }
     }
 
     #[test]

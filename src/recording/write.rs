@@ -192,7 +192,10 @@ mod tests {
             focal_length_px: 4.0,
             correlation_amplitude: vec![1.0, 0.0, 0.024],
             correlation_phase_rad: vec![0.0, 0.0, -0.24],
-            included_physics: vec!["inverse_square_falloff".to_owned(), "of another program".to_owned()],
+            included_physics: vec![
+                "inverse_square_falloff".to_owned(),
+                "axial_motion_of_recorded_velocity".to_owned(),
+            ],
             effects: Vec::new(),
         }
     }

@@ -100,18 +100,19 @@ fn panel(svg: &mut Svg, (left, top): (f64, f64), lines: &[Line], abscissa: &str,
     svg.text(left + PANEL.0 / 2.0, bottom + 34.0, "soft middle", abscissa);
 }
 
-/// The atlas's page in Markdown: each effect with its sentence, parameters, reference and picture, and the largest error that its
+/// The atlas's page in Markdown: each effect with its sentence, parameters, reference and picture, and the largest errors that its
 /// usual size makes with each scheme.
 pub fn atlas_index(effects: &[(&Effect, Vec<Residuals>)]) -> String {
     let mut page = String::from(
         "# Atlas of effects\n\nEach effect alone, at its usual size, on perfect data: a sinusoidal correlation, no noise.\nA residual is the result with the effect less the result without it; errors are means over the target's pixels, but for the map.\n\n\
-         | effect | place | largest error, four frames | WDFT |\n| --- | --- | --- | --- |\n",
+         Largest mean, and largest root mean square over those pixels, which a slope over the image does not cancel:\n\n\
+         | effect | place | four frames, mean | RMS | WDFT, mean | RMS |\n| --- | --- | --- | --- | --- | --- |\n",
     );
     for (effect, residuals) in effects {
         let name = effect.name;
         page += &format!("| [{name}](#{name}) | {:?} |", effect.place);
         for row in residuals {
-            page += &format!(" {:.1} mm |", row.largest_mm());
+            page += &format!(" {:.1} mm | {:.1} mm |", row.largest_mm(), row.largest_rms_mm);
         }
         page.push('\n');
     }

@@ -98,6 +98,11 @@ impl CameraArguments {
             Some(focal_length_px),
         ) = (self.adc_bits, self.pedestal_dn, self.gain_e_per_dn, self.read_noise_e, self.focal_length_px)
         {
+            if pedestal_dn >= f64::from((1u32 << adc_bits) - 1) {
+                return Err(Problem::at("--pedestal-dn", pedestal_dn)
+                    .expected(format_args!("below the greatest code of {adc_bits} bits"))
+                    .remedy("give the code at no light in codes of this converter, or correct --adc-bits"));
+            }
             return Ok(Known::Fields(Box::new(Camera {
                 geometry: Geometry { width: 1, height: 1 },
                 adc_bits,
