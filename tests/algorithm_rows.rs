@@ -47,8 +47,18 @@ fn the_generator_takes_every_row_of_integers() {
 #[test]
 fn rows_of_the_table_and_a_designed_one_agree_in_verilator() {
     let of = |name: &str| vuris::algorithms::named(name).unwrap().unwrap().scheme.unwrap();
-    let rows =
-        [of("wdft-4"), of("wdft-6"), of("n-plus-1-b-6"), of("n-plus-3-3"), of("thirteen-frame"), designed()];
+    let names = [
+        "dft-3",
+        "dft-6",
+        "wdft-4",
+        "wdft-6",
+        "n-plus-1-b-6",
+        "n-plus-3-3",
+        "n-plus-3-4",
+        "n-plus-3-6",
+        "thirteen-frame",
+    ];
+    let rows: Vec<Scheme> = names.into_iter().map(of).chain([designed()]).collect();
     let values = two_at_a_time(&rows, |scheme| {
         let pipeline = pipeline(scheme);
         let golden = Golden::new(&pipeline, &everything(&pipeline, 11));

@@ -1,7 +1,7 @@
 //! `vuris diagnose`
 
 use super::campaign::recordings_in;
-use super::print::{counted, say};
+use super::print::{counted, remark_on_physics, say};
 use super::progress;
 use crate::artifact::write_file;
 use crate::diagnose::{Data, Diagnosis, camera_with, diagnose, library};
@@ -55,6 +55,7 @@ impl Diagnose {
         };
         for campaign in &self.campaigns {
             let data = read(campaign, &library)?;
+            remark_on_physics(&data.described);
             let what = format!("diagnosing {}", campaign.display());
             let diagnosis: Diagnosis = progress::during(what, || diagnose(&data));
             let text = serde_json::to_string_pretty(&diagnosis.answer)

@@ -1,6 +1,6 @@
 //! `vuris simulate`
 
-use super::print::{counted, remark, say};
+use super::print::{counted, remark, remark_on_physics, say};
 use super::progress;
 use crate::bench::{
     Course, Plan, Simulation, camera_effects, chain, included_without, injection_for, practice_camera,
@@ -108,6 +108,7 @@ impl Simulate {
         }
         let out = self.out.as_deref().unwrap_or(Path::new("."));
         let camera = self.described_camera()?;
+        remark_on_physics(&camera);
         let effects: Vec<Active> =
             self.effect.iter().map(|text| injection_for(text, camera.adc_bits)).collect::<Result<_>>()?;
         let twice = (1..effects.len())

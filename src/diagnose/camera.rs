@@ -1,19 +1,27 @@
 //! The camera as its next simulation should have it: with the effects that were found.
 
+use super::columns::Column;
 use super::data::Data;
+use super::fit::Fit;
 use super::judge::Judgement;
-use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
+use crate::recording::{BASELINE, Camera};
 
-/// Effects that are all of what a camera's simulation can include by name.
-const BY_NAME: [(&str, &str); 2] =
-    [("axial_motion", AXIAL_MOTION), ("inverse_square_falloff", INVERSE_SQUARE_FALLOFF)];
+/// Closer to 1, in standard deviations, a share is 1.
+const WHOLE_SIGMAS: f64 = 4.0;
 
 /// The camera of `data`, with the effects that `judgement` asserts and their fitted values.
 pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
     let mut camera = data.described.clone();
     let named = |name: &str| judgement.named.iter().any(|named| named.name == name);
-    for piece in judgement.fit.pieces.iter().filter(|piece| named(piece.effect.name)) {
-        if let Some((_, included)) = BY_NAME.iter().find(|(name, _)| *name == piece.effect.name) {
+    let Fit { pieces, columns, sigma, .. } = &judgement.fit;
+    for (number, piece) in pieces.iter().enumerate().filter(|(_, piece)| named(piece.effect.name)) {
+        // By name where it acts wholly, as far as is known; else with its value.
+        let is_whole = |(column, sigma): (&Column, &f64)| {
+            column.piece == number && (piece.values[column.parameter] - 1.0).abs() < WHOLE_SIGMAS * sigma
+        };
+        let is_whole = piece.takes.len() == data.takes.len() && columns.iter().zip(sigma).any(is_whole);
+        let by_name = BASELINE.iter().find(|(name, _)| *name == piece.effect.name);
+        if let Some((_, included)) = by_name.filter(|_| is_whole) {
             camera.included_physics.push((*included).to_owned());
             continue;
         }

@@ -11,7 +11,7 @@ pub const INVERSE_SQUARE_FALLOFF: &str = "inverse_square_falloff";
 pub const AXIAL_MOTION: &str = "axial_motion_of_recorded_velocity";
 
 /// What can be included, by the effect that is the same with a value.
-const BASELINE: [(&str, &str); 2] =
+pub const BASELINE: [(&str, &str); 2] =
     [("axial_motion", AXIAL_MOTION), ("inverse_square_falloff", INVERSE_SQUARE_FALLOFF)];
 
 /// The name of an effect with values, as [`Camera::effects`] has it.
@@ -144,6 +144,12 @@ impl Camera {
         full_scale(self.adc_bits)
     }
 
+    /// What another program has written into `included`, and what is misspelt there: it is not simulated.
+    pub fn unknown_physics(&self) -> impl Iterator<Item = &str> {
+        let is_known = |name: &str| BASELINE.into_iter().any(|(_, included)| included == name);
+        self.included_physics.iter().map(String::as_str).filter(move |name| !is_known(name))
+    }
+
     /// The text of a file that reads as this camera.
     pub fn to_toml(&self) -> String {
         // Files of before had no effects, and stay as they were.
@@ -174,15 +180,8 @@ fn full_scale(adc_bits: u32) -> u32 {
     (1 << adc_bits) - 1
 }
 
-/// That everything included is known, and nothing is there both by name and with a value. Effects are the simulator's to know.
+/// That nothing is there both by name and with a value. Effects are the simulator's to know.
 fn check_physics(file: &str, included_physics: &[&str], effects: &[&str]) -> Result<()> {
-    let known = || BASELINE.into_iter().map(|(_, included)| included);
-    if let Some(name) = included_physics.iter().find(|name| !known().any(|known| known == **name)) {
-        let names: Vec<&str> = known().collect();
-        return Err(Problem::at(file, format_args!("physics.included has {name}"))
-            .expected(format_args!("{}; any other effect is one of physics.effects", names.join(", ")))
-            .nearest(name, known()));
-    }
     let is_twice = |text: &&&str| {
         let twice = |(name, included): &(&str, &str)| {
             effect_name(text) == *name && included_physics.contains(included)
@@ -275,18 +274,19 @@ mod tests {
                 "focal_length_px = 2\n[correlation]\namplitude = [1.0, 1.5]\nphase_rad = [0.0, 0.0]",
                 "correlation.amplitude = [1.0, 1.5]\n  expected: numbers from -1 to 1",
             ),
-            (
-                end,
-                "focal_length_px = 2\n[physics]\nincluded = [\"axial_motion\"]",
-                "physics.included has axial_motion\n  expected: axial_motion_of_recorded_velocity, inverse_square_falloff; \
-                 any other effect is one of physics.effects\n  way out: did you mean axial_motion_of_recorded_velocity?",
-            ),
-            (end, "focal_length_px = 2\n[physics]\nincluded = [\"gravity\"]", "physics.included has gravity"),
         ] {
             let refusal = of(from, to).unwrap_err().to_string();
             assert!(refusal.starts_with("camera.toml: ") && refusal.contains(words), "{refusal}");
             assert!(refusal.contains("way out: "), "{refusal}");
         }
+    }
+
+    #[test]
+    fn what_another_program_includes_is_kept_and_told() {
+        let text = format!("{MINIMAL}[physics]\nincluded = [\"inverse_square_falloff\", \"gravity\"]");
+        let camera = Camera::parse("camera.toml", &text).unwrap();
+        assert_eq!(camera.unknown_physics().collect::<Vec<_>>(), ["gravity"]);
+        assert_eq!(Camera::parse("again", &camera.to_toml()).unwrap(), camera);
     }
 
     #[test]

@@ -18,7 +18,7 @@ mod staging;
 mod table;
 mod write;
 
-pub use camera::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, effect_name};
+pub use camera::{AXIAL_MOTION, BASELINE, Camera, INVERSE_SQUARE_FALLOFF, effect_name};
 pub use kind::Kind;
 pub use npy::{Codes, read as read_npy};
 pub use sets::SetRow;
