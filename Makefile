@@ -8,7 +8,7 @@ VURIS := $(or $(CARGO_TARGET_DIR),target)/release/vuris
 unexport MAKEFLAGS MFLAGS
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove picture clean
+.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove study picture clean
 
 help:      ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
@@ -58,6 +58,9 @@ coverage: setup build ## lines that run and bits that move: docs/coverage-*.md
 
 prove: setup build ## formal proofs, their covers, and designs in which each must fail
 	$(VURIS) prove --spec vuris
+
+study: build ## how often the diagnosis is right: docs/study.md (half an hour)
+	$(VURIS) study --nulls 200 --repeats 1 --seed 1 --out docs
 
 picture: setup build ## draw the pictures in docs/images anew
 	$(VURIS) scene --out docs/images

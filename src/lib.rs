@@ -36,6 +36,7 @@
 //! | [`bench`](mod@bench) | recordings and the simulator together: campaigns, what each effect does to perfect data |
 //! | [`paper`] | the camera's paper computed again: each figure and table, the open question, the rivals |
 //! | [`diagnose`] | where recordings and simulation disagree, and which physics was left out |
+//! | [`study`] | how often the diagnosis is right, on simulated campaigns |
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
@@ -70,6 +71,7 @@ pub mod recording;
 pub mod reference;
 pub mod report;
 pub mod spec;
+pub mod study;
 pub mod sweep;
 pub mod synthesis;
 pub mod units;

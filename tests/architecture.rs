@@ -15,8 +15,9 @@ const EDGES: &Edges = &[
     (
         "cli",
         "algorithms artifact bench cosim diagnose frames hdl import model package paper physics problem proof ranging recording reference report spec \
-         sweep synthesis units",
+         study sweep synthesis units",
     ),
+    ("study", "bench diagnose frames physics problem"),
     ("package", "artifact hdl report spec units"),
     ("report", "algorithms bench diagnose frames hdl paper physics problem spec sweep synthesis units"),
     ("algorithms", "problem spec units"),
@@ -46,7 +47,7 @@ const EDGES: &Edges = &[
 const LAYERS: &[&str] = &[
     "main",
     "cli",
-    "package proof report",
+    "package proof report study",
     "diagnose ranging",
     "bench import paper sweep synthesis",
     "cosim hdl physics recording",

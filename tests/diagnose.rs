@@ -377,3 +377,10 @@ fn recordings_without_camera_and_positions_are_diagnosed() {
     let slope = noise["slope_dn"].as_f64().unwrap();
     assert!((slope - 1.0 / 12.0).abs() < 0.03, "{noise}");
 }
+
+/// The short form of `make study`: clean campaigns raise no alarm. What is counted as what is tested beside the counting.
+#[test]
+fn a_short_study_raises_no_alarm() {
+    let (good, text) = vuris(&["study", "--nulls", "3", "--repeats", "0", "--seed", "900"]);
+    assert!(good && text.contains("**Clean campaigns**: 0 alarms in 3 ("), "{text}");
+}

@@ -18,6 +18,7 @@ mod prove;
 mod scene;
 mod simulate;
 mod stimulus;
+mod study;
 mod sweep;
 mod synth;
 mod verify;
@@ -50,6 +51,7 @@ enum Command {
     Atlas(atlas::Atlas),
     Paper(paper::Paper),
     Sweep(Box<sweep::Sweep>),
+    Study(study::Study),
     Demo(demo::Demo),
     Diagnose(diagnose::Diagnose),
     Synth(synth::Synth),
@@ -74,6 +76,7 @@ impl Arguments {
             Command::Atlas(command) => command.run(),
             Command::Paper(command) => command.run(),
             Command::Sweep(command) => command.run(),
+            Command::Study(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Diagnose(command) => command.run(),
             Command::Synth(command) => command.run(),

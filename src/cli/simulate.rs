@@ -3,13 +3,13 @@
 use super::print::{counted, remark, remark_on_physics, say};
 use super::progress;
 use crate::bench::{
-    Course, Plan, Simulation, camera_effects, chain, included_without, injection_for, practice_camera,
-    sensor, simulate, specification_of,
+    Course, Plan, Simulation, camera_effects, chain, included_without, injection_for, number_of,
+    practice_camera, recorded, sensor, simulate, specification_of,
 };
 use crate::frames::Geometry;
 use crate::physics::{Active, Chain, Correlation, EFFECTS, FREQUENCY_HZ, Pulse, Sensor, Stage};
 use crate::problem::{Problem, Result};
-use crate::recording::{Camera, Recording, write_camera, write_recording};
+use crate::recording::{Camera, write_camera, write_recording};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -160,30 +160,14 @@ impl Simulate {
         }
         write_camera(&camera, out)?;
         for ((name, course), chain) in names.iter().zip(&courses).zip(&chains) {
-            // The same recording has the same noise, whichever others are taken.
-            let number = Plan::names().iter().position(|known| known == name).unwrap_or(0) as u32;
-            let simulation =
-                Simulation { chain, sensor: &sensor, noise: true, seed: self.seed, recording: number };
-            let raw = progress::counted("sets", |tell| {
+            let recording = number_of(name);
+            let simulation = Simulation { chain, sensor: &sensor, noise: true, seed: self.seed, recording };
+            let recording = progress::counted("sets", |tell| {
                 let done = AtomicUsize::new(0);
-                simulate(&simulation, course, &|| {
+                recorded(out, name, &plan, course, &camera, &simulation, &|| {
                     tell(done.fetch_add(1, Ordering::Relaxed) + 1, course.sets.len())
                 })
             })?;
-            let recording = Recording {
-                folder: out.join(name),
-                name: name.clone(),
-                kind: course.kind,
-                frequency_hz: course.frequency_hz,
-                steps_rad: course.steps_rad.clone(),
-                frame_period_s: course.frame_period_s,
-                raw,
-                sets: plan.as_read(course, number),
-                extra_columns: Vec::new(),
-                mask: Some(chain.pixels.target.clone()),
-                frame_times_s: course.frame_times_s.clone(),
-                camera: Some(camera.clone()),
-            };
             write_recording(&recording, &out.join(name))?;
             say!("{name}: {} of {} frames", counted(course.sets.len(), "set"), course.frames());
         }

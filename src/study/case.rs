@@ -1,0 +1,97 @@
+//! One campaign: made, diagnosed, judged.
+
+use crate::bench::{Plan, Simulation, chain, number_of, practice_camera, recorded, sensor};
+use crate::diagnose::{Data, diagnose};
+use crate::frames::Geometry;
+use crate::physics::{Active, Effect, FREQUENCY_HZ, Stage};
+use crate::problem::Result;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Pixels of a campaign.
+pub type Size = Geometry;
+
+/// A campaign.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// The effect, which of its numbers is not off, and all its numbers; nothing in a clean campaign.
+    pub effect: Option<(&'static Effect, usize, Vec<f64>)>,
+    /// Its strength, in standard deviations of the whole campaign.
+    pub rho: f64,
+    /// Seed of scene, noise and encoder.
+    pub seed: u64,
+}
+
+/// What a diagnosis made of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// The verdict's word.
+    pub verdict: &'static str,
+    /// The effects that were named.
+    pub named: Vec<&'static str>,
+    /// What was said to be possible too.
+    pub possible: Vec<String>,
+    /// Error of the number that is not off, in the standard deviations that were stated; where the effect was named.
+    pub error_sigma: Option<f64>,
+}
+
+/// Recordings of a campaign.
+const RECORDINGS: [&str; 6] =
+    ["four-sweep", "four-rail", "four-motion", "wdft-sweep", "wdft-rail", "wdft-motion"];
+const FRAME_PERIOD_S: f64 = 0.025;
+
+impl Case {
+    fn data(&self, size: Size) -> Result<Data> {
+        let mut camera = practice_camera(size);
+        // The field of view of 24 pixels' width.
+        camera.focal_length_px *= size.width as f64 / 24.0;
+        let sensor = sensor(&camera);
+        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: FRAME_PERIOD_S, seed: self.seed };
+        let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
+        let effects = self.effect.iter().map(|(effect, _, values)| Active { effect, values: values.clone() });
+        let chain = chain(&camera, pixels, effects.collect());
+        let take = |name: &&str| {
+            let recording = number_of(name);
+            let simulation =
+                Simulation { chain: &chain, sensor: &sensor, noise: true, seed: self.seed, recording };
+            recorded(Path::new("study"), name, &plan, &plan.course(name)?, &camera, &simulation, &|| ())
+        };
+        let recordings = RECORDINGS.iter().map(take).collect::<Result<Vec<_>>>()?;
+        Data::of(&recordings, Vec::new())
+    }
+
+    /// What this campaign would show: `(effect, its first number that is seen, a standard deviation of it)`.
+    ///
+    /// # Errors
+    /// A campaign that cannot be made.
+    pub fn detectable(&self, size: Size) -> Result<Vec<(&'static str, usize, f64)>> {
+        let found = diagnose(&self.data(size)?).judgement.found;
+        let mut units: Vec<(&'static str, usize, f64)> = Vec::new();
+        for (name, parameter, five) in found.detectable {
+            if !units.iter().any(|unit| unit.0 == name) {
+                units.push((name, parameter, five / 5.0));
+            }
+        }
+        Ok(units)
+    }
+
+    /// Makes and diagnoses it.
+    ///
+    /// # Errors
+    /// A campaign that cannot be made.
+    pub fn run(&self, size: Size) -> Result<Outcome> {
+        let answer = diagnose(&self.data(size)?).answer;
+        let error = || {
+            let (effect, number, values) = self.effect.as_ref()?;
+            let row = answer.effects.iter().find(|row| row.name == effect.name)?;
+            let parameter = row.parameters.iter().find(|row| row.name == effect.parameters[*number].name)?;
+            (parameter.sigma > 0.0).then(|| (parameter.value - values[*number]) / parameter.sigma)
+        };
+        Ok(Outcome {
+            verdict: answer.verdict,
+            named: answer.effects.iter().map(|row| row.name).collect(),
+            possible: answer.effects.iter().flat_map(|row| row.also_possible.clone()).collect(),
+            error_sigma: error(),
+        })
+    }
+}
