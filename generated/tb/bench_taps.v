@@ -91,7 +91,8 @@ module bench_taps (
   );
 
   assign padding_o = |(m_axis_tdata & 88'hfcf8000000000000fc0000);
-  assign refused_o = (!dut.sums_valid && !dut.sums_taken) || (!dut.result_valid && !dut.advance);
+  assign refused_o = (!dut.sums_valid && !dut.sums_taken)
+      || (!dut.result_valid && !dut.advance);
 
   // accumulator
   assign strobe_o[0] = dut.sums_valid && dut.sums_taken;

@@ -397,7 +397,8 @@ module testbench;
       else if (first_taken >= 0) first_taken = first_taken + 1;
     end
     if (rst_n && (dut.sums_valid && dut.sums_taken) === 1'b1) drained = drained + 1;
-    if (rst_n && ((!dut.sums_valid && !dut.sums_taken) || (!dut.result_valid && !dut.advance)) !== 1'b0) begin
+    if (rst_n && ((!dut.sums_valid && !dut.sums_taken)
+      || (!dut.result_valid && !dut.advance)) !== 1'b0) begin
       mismatches = mismatches + 1;
       if (mismatches <= LIMIT) $display("REFUSED clock=%0d: an empty register holds up what comes before it", clocks);
     end

@@ -114,7 +114,7 @@ fn refused(pipeline: &Pipeline) -> String {
         registers.push(("dut.angle_valid", "dut.angle_ready"));
     }
     let terms = registers.iter().map(|(full, takes)| format!("(!{full} && !{takes})"));
-    terms.collect::<Vec<_>>().join(" || ")
+    terms.collect::<Vec<_>>().join("\n      || ")
 }
 
 fn bench(source: &Source, golden: &Golden) -> Bench {

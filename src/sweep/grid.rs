@@ -14,7 +14,7 @@ pub struct Grid {
     pub words: Vec<(u32, u32, i64)>,
     /// Bits of the phase.
     pub phase_bits: Vec<u32>,
-    /// CORDIC iterations; where none are listed, those that fit the phase: see [`fitting_iterations`].
+    /// CORDIC iterations; where none are listed, those that fit the phase.
     pub iterations: Vec<u32>,
     /// Bits of the vector below the phase's resolution.
     pub vector_guard_bits: Vec<u32>,
