@@ -64,7 +64,7 @@ impl Diagnose {
                 write_file(file, &camera_with(&data, &diagnosis.judgement).to_toml())?;
             }
             if let Some(file) = &self.report {
-                write_file(file, &diagnosis_page(campaign, &diagnosis, data.geometry())?)?;
+                write_file(file, &diagnosis_page(campaign, &diagnosis)?)?;
             }
             match &self.json {
                 Some(file) if file == Path::new("-") => say!("{text}"),

@@ -43,7 +43,7 @@ fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
     Pixels {
         geometry,
         target: data.target.clone(),
-        obliquity: camera.obliquities(),
+        obliquity: data.obliquities(),
         background_m: vec![BACKGROUND_M; geometry.pixels()],
         phase_rad,
         amplitude_1m_dn,

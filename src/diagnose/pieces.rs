@@ -99,7 +99,7 @@ const LINES: [(&str, LineShape); 2] = [
 ];
 
 /// Effects that a pixel's neighbours make: they cannot be seen where those are not looked at.
-const OF_NEIGHBOURS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lateral_motion"];
+pub const OF_NEIGHBOURS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lateral_motion"];
 
 /// All candidates that `data` could need: those of the registry that its camera does not include.
 pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {

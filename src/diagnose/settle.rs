@@ -16,7 +16,7 @@ const MUCH_BETTER: (f64, f64) = (100.0, 0.02);
 pub fn with_mask(data: &Data, noise: Noise) -> (Data, usize) {
     let count = data.pixels();
     let mut normal = vec![[Normal::new(), Normal::new()]; count];
-    let obliquity = data.camera.obliquities();
+    let obliquity = data.obliquities();
     for take in &data.takes {
         for (index, moment) in take.moments.iter().enumerate().filter(|(_, moment)| moment.lit) {
             let position_m = moment.commanded_m();
