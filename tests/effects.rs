@@ -17,7 +17,7 @@ fn chain_of(effects: Vec<Active>) -> Chain {
     let sensor = sensor(&practice_camera(SMALL));
     let pixels = Arc::new(Stage::bench().pixels(&sensor, 5));
     let included = Included { axial_motion: true, inverse_square_falloff: true };
-    Chain { pixels, correlation: Correlation::measured(), included, effects }
+    Chain::new(pixels, Correlation::measured(), included, effects)
 }
 
 fn moment(frame: usize, position_m: f64, velocity_m_s: f64, offset_rad: f64, lit: bool) -> Moment {
@@ -52,7 +52,7 @@ fn memory(chain: &Chain, deviate: f64) -> Memory {
     Memory {
         noisy: false,
         before_dn: Some(Arc::new(Draws::of(1, 1).normal(pixels).iter().map(|d| 300.0 + 50.0 * d).collect())),
-        deviates: vec![deviate; chain.effects.len()],
+        deviates: vec![deviate; chain.effects().len()],
         pixel_deviates: Draws::of(2, 1).normal(pixels).iter().map(|d| deviate * d).collect(),
     }
 }

@@ -58,13 +58,9 @@ pub fn chain(camera: &Camera, pixels: Arc<Pixels>, effects: Vec<Active>) -> Chai
         .collect();
     // Not `Camera::includes`: an effect with a value acts with the others, and is not in the baseline besides.
     let included = |name: &str| camera.included_physics.iter().any(|included| included == name);
-    Chain {
-        pixels,
-        correlation: Correlation::with_harmonics(&harmonics),
-        included: Included {
-            axial_motion: included(AXIAL_MOTION),
-            inverse_square_falloff: included(INVERSE_SQUARE_FALLOFF),
-        },
-        effects,
-    }
+    let included = Included {
+        axial_motion: included(AXIAL_MOTION),
+        inverse_square_falloff: included(INVERSE_SQUARE_FALLOFF),
+    };
+    Chain::new(pixels, Correlation::with_harmonics(&harmonics), included, effects)
 }
