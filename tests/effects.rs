@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vuris::bench::{practice_camera, sensor};
 use vuris::frames::Geometry;
 use vuris::physics::{
-    Active, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Formula, Included, Memory, Moment,
-    Parameter, Place, Stage, Target,
+    Act, Active, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Formula, Included, Memory,
+    Moment, Parameter, Place, Stage, Target,
 };
 
 const SMALL: Geometry = Geometry { width: 8, height: 6 };
@@ -224,15 +224,14 @@ fn broken_effects_are_caught() {
             place: Place::Readout,
             chance: Chance::None,
             looks_back: false,
-            act,
-            formula: None,
+            act: Act::Code(act),
         }))
     }
     fn add(exposure: &mut Exposure, dn: f64) {
         exposure.signal_dn.iter_mut().for_each(|signal| *signal += dn);
     }
-    type Act = fn(&[f64], &mut Exposure);
-    let mutants: [(&str, Act); 6] = [
+    type Code = fn(&[f64], &mut Exposure);
+    let mutants: [(&str, Code); 6] = [
         ("off is the identity", |values, exposure| add(exposure, 1e-9 + values[0])),
         ("finite within bounds", |values, exposure| add(exposure, values[0] / (1.0 - values[0]))),
         ("deterministic", |values, exposure| {
@@ -268,8 +267,7 @@ fn formulas_act_after_the_registrys_effects() {
         place: Place::Charge,
         chance: Chance::None,
         looks_back: false,
-        act: |_, _| (),
-        formula: Some(formula),
+        act: Act::Formula(Box::new(formula)),
     }));
     let crosstalk = EFFECTS.iter().find(|effect| effect.name == "electrical_crosstalk").unwrap();
     let signal = |effects: &[&'static Effect]| {
