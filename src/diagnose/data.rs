@@ -5,7 +5,7 @@ use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
 use crate::physics::{Active, Effect, Moment, effects};
 use crate::problem::{Problem, Result};
-use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, Recording};
+use crate::recording::{Camera, Recording};
 use serde::Serialize;
 
 /// A recording's frames.
@@ -57,23 +57,6 @@ pub struct Assumed {
     pub still_scene: bool,
 }
 
-/// What is taken for the camera of `recordings` that come without a description.
-fn assumed_camera(recordings: &[Recording], first: &Recording) -> Camera {
-    Camera {
-        geometry: first.geometry(),
-        adc_bits: recordings.iter().map(Recording::adc_bits).max().unwrap_or(16),
-        pedestal_dn: 0.0,
-        gain_e_per_dn: 1.0,
-        read_noise_e: 1.0,
-        // Rays that are parallel.
-        focal_length_px: 1e9,
-        correlation_amplitude: vec![1.0],
-        correlation_phase_rad: vec![0.0],
-        included_physics: vec![AXIAL_MOTION.to_owned(), INVERSE_SQUARE_FALLOFF.to_owned()],
-        effects: Vec::new(),
-    }
-}
-
 /// Above so many codes below full scale a sample is clipped, or about to be.
 const CLIPPED_DN: u32 = 2;
 
@@ -88,7 +71,10 @@ impl Data {
                 Problem::at("diagnosis", "no recording").expected("a recording, or a campaign of recordings")
             );
         };
-        let camera = first.camera.clone().unwrap_or_else(|| assumed_camera(recordings, first));
+        let camera = first.camera.clone().unwrap_or_else(|| {
+            let adc_bits = recordings.iter().map(Recording::adc_bits).max().unwrap_or(16);
+            Camera::assumed(first.geometry(), adc_bits)
+        });
         let has_position = |recording: &Recording| recording.sets.iter().any(|row| row.position_m.is_some());
         let assumed =
             Assumed { camera: first.camera.is_none(), still_scene: !recordings.iter().any(has_position) };
@@ -223,6 +209,12 @@ impl Data {
     pub fn with_takes(&self, takes: Vec<Take>) -> Self {
         let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
         Self { takes, has_dark, ..self.clone() }
+    }
+
+    /// The same with another mask, a pixel each.
+    #[must_use]
+    pub fn with_target(&self, target: Vec<bool>) -> Self {
+        Self { target, ..self.clone() }
     }
 
     /// The same with these sets (numbers over all recordings) left out; nothing where there are none.

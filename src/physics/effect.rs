@@ -108,6 +108,15 @@ pub enum Chance {
     Pixel,
 }
 
+/// What values of an effect's parameters do to a frame that has come to [`Effect::place`].
+#[derive(Debug)]
+pub enum Act {
+    /// What the effect's file says.
+    Code(fn(&[f64], &mut Exposure)),
+    /// What a user's formula says.
+    Formula(Box<Formula>),
+}
+
 /// A physical effect. One file each in `effects/`, one line in [`super::EFFECTS`].
 #[derive(Debug)]
 pub struct Effect {
@@ -125,18 +134,16 @@ pub struct Effect {
     pub chance: Chance,
     /// Whether it needs [`Exposure::before_dn`], the light of the frame before.
     pub looks_back: bool,
-    /// The forward model: what these values of the parameters do to a frame that has come to [`Effect::place`].
-    pub act: fn(&[f64], &mut Exposure),
-    /// What acts instead, of an effect that a user gives as a formula.
-    pub formula: Option<Formula>,
+    /// The forward model.
+    pub act: Act,
 }
 
 impl Effect {
     /// Does to `exposure` what these values of the parameters do.
     pub fn act_on(&self, values: &[f64], exposure: &mut Exposure) {
-        match &self.formula {
-            Some(formula) => formula.act(values, exposure),
-            None => (self.act)(values, exposure),
+        match &self.act {
+            Act::Code(act) => act(values, exposure),
+            Act::Formula(formula) => formula.act(values, exposure),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Frames of a set with gains of their own.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 const fn gain(name: &'static str) -> Parameter {
     Parameter::strength(name, "1", 0.0, (-0.3, 0.3), 0.005)
@@ -24,8 +24,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

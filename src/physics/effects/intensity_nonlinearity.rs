@@ -1,6 +1,6 @@
 //! The pixel's response is not linear in the light.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Quadratic and cubic part, relative to the linear one at full scale.
 pub static EFFECT: Effect = Effect {
@@ -14,8 +14,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -1,6 +1,6 @@
 //! Each phase step with an error of its own.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 use std::f64::consts::TAU;
 
 const fn step(name: &'static str) -> Parameter {
@@ -31,8 +31,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 const SETTINGS: f64 = 12.0;
