@@ -123,8 +123,8 @@ fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
     }
 }
 
-/// Iterations of Gauss and Newton at most: the pixels' own numbers start close.
-const ITERATIONS: usize = 5;
+/// Iterations of Gauss and Newton at most: the pixels' own numbers start close, a response that is far from linear does not.
+const ITERATIONS: usize = 12;
 /// A step that would lower chi squared by less is none: a standard deviation of one number is 1.
 const ENOUGH: f64 = 0.1;
 

@@ -28,6 +28,7 @@ mod multipath_interference;
 mod phase_drift;
 mod phase_step_errors;
 mod phase_step_scale;
+mod response_decay;
 mod saturation;
 mod tap_mismatch;
 mod timing_jitter_of_frames;
@@ -49,6 +50,7 @@ pub static EFFECTS: &[&Effect] = &[
     &ambient_flicker::EFFECT,
     &illumination_droop::EFFECT,
     &illumination_drift::EFFECT,
+    &response_decay::EFFECT,
     &phase_step_scale::EFFECT,
     &phase_step_errors::EFFECT,
     &phase_drift::EFFECT,
