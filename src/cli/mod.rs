@@ -10,6 +10,7 @@ mod explain;
 mod generate;
 mod import;
 mod mutate;
+mod option;
 mod paper;
 mod print;
 mod process;

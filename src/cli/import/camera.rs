@@ -1,5 +1,6 @@
 //! What is known of the camera: a `camera.toml`, or its fields one by one, all of them or none.
 
+use super::super::option::in_range;
 use crate::frames::Geometry;
 use crate::problem::{Problem, Result};
 use crate::recording::Camera;
@@ -80,7 +81,7 @@ impl CameraArguments {
         ];
         for (option, value, allowed) in &fields {
             if let Some(value) = value {
-                super::taking::in_range(option, *value, allowed)?;
+                in_range(option, *value, allowed)?;
             }
         }
         let named = |given: bool| -> Vec<&str> {
