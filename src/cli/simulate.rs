@@ -173,8 +173,7 @@ impl Simulate {
     /// What the campaign's camera.toml says, and the sensor with its assumed light.
     fn camera(&self, mut camera: Camera, effects: &[Active]) -> Result<(Camera, Sensor)> {
         if let Some(geometry) = self.size {
-            camera.focal_length_px *= geometry.width as f64 / camera.geometry.width as f64;
-            camera.geometry = geometry;
+            camera = camera.resized(geometry);
         }
         let mut constant_ratio = None;
         if let (Some(light), Some(demodulation)) = (&self.light, &self.demodulation) {

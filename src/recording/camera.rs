@@ -158,6 +158,13 @@ impl Camera {
         places.map(|(row, column)| self.obliquity(row, column)).collect()
     }
 
+    /// The same camera with `geometry` for its pixels, behind the same lens: the field of view from left to right stays.
+    #[must_use]
+    pub fn resized(self, geometry: Geometry) -> Self {
+        let focal_length_px = self.focal_length_px * (geometry.width as f64 / self.geometry.width as f64);
+        Self { geometry, focal_length_px, ..self }
+    }
+
     /// The converter's greatest code.
     pub fn full_scale(&self) -> u32 {
         full_scale(self.adc_bits)
