@@ -178,6 +178,12 @@ impl Data {
         Self { takes, has_dark, ..self.clone() }
     }
 
+    /// The same with another mask, a pixel each.
+    #[must_use]
+    pub fn with_target(&self, target: Vec<bool>) -> Self {
+        Self { target, ..self.clone() }
+    }
+
     /// The same with these sets (numbers over all recordings) left out; nothing where there are none.
     pub fn without(&self, sets: &[usize]) -> Option<Self> {
         if sets.is_empty() {

@@ -143,18 +143,16 @@ pub struct Smallest {
 pub fn diagnose(data: &Data) -> Diagnosis {
     let noise = noise_of(data);
     // A scene that stands still has no mask.
-    let (data, moved) = if data.assumed.still_scene { (data.clone(), 0) } else { with_mask(data, noise) };
-    let baseline = unfitted(&data, noise);
+    let masked = if data.assumed.still_scene { None } else { with_mask(data, noise) };
+    let (data, moved) = masked.as_ref().map_or((data, 0), |(data, moved)| (data, *moved));
+    let baseline = unfitted(data, noise);
     let outlying = outlying(&baseline.series);
     let left_out = outlying.len();
-    let (data, baseline) = match data.without(&outlying) {
-        Some(data) => {
-            let baseline = unfitted(&data, noise);
-            (data, baseline)
-        }
+    let fewer = data.without(&outlying);
+    let (data, baseline) = match &fewer {
+        Some(fewer) => (fewer, unfitted(fewer, noise)),
         None => (data, baseline),
     };
-    let data = &data;
     let judgement = judge(data, baseline, noise);
     let held_out = held_out(data, &judgement.found.baseline, &judgement.fit, judgement.noise);
     let mut answer = answer(data, &judgement, &held_out);
