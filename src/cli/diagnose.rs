@@ -1,7 +1,7 @@
 //! `vuris diagnose`
 
-use super::campaign::recordings_in;
-use super::print::{counted, remark_on_physics, say};
+use super::campaign::{recordings_in, remark_on_physics};
+use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
 use crate::diagnose::{Data, Diagnosis, camera_with, diagnose, library};

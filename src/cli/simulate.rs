@@ -1,7 +1,8 @@
 //! `vuris simulate`
 
+use super::campaign::remark_on_physics;
 use super::option::{each_once, in_range};
-use super::print::{counted, remark, remark_on_physics, say};
+use super::print::{counted, remark, say};
 use super::progress;
 use crate::bench::{
     Course, Plan, Simulation, camera_effects, chain, included_without, injection_for, number_of,
