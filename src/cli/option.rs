@@ -9,7 +9,7 @@ pub(super) fn in_range(option: &str, value: f64, allowed: &RangeInclusive<f64>) 
     let (low, high) = (allowed.start(), allowed.end());
     match allowed.contains(&value) {
         true => Ok(()),
-        false => Err(Problem::at(option, format_args!("{value:e}"))
+        false => Err(Problem::at(option, format_args!("{value:?}"))
             .expected(format_args!("a number from {low:e} to {high:e}"))),
     }
 }
