@@ -2,8 +2,9 @@
 
 use crate::frames::Geometry;
 
-/// Of so many samples all are looked at.
+/// Of so many samples all are looked at, if they are of not too many pixels: each pixel has sums of its own for every number that is tried.
 const WHOLE_SAMPLES: usize = 8_000_000;
+const MOST_PIXELS: usize = 6000;
 /// Of more, so many at most: a number that all pixels share is known to a thousandth of what one sample tells.
 const MOST_SAMPLES: usize = 5_000_000;
 
@@ -35,11 +36,12 @@ impl Grid {
         };
         let samples = |grid: &Self| grid.size.pixels() * frames;
         let whole = spread(1);
-        if samples(&whole) <= WHOLE_SAMPLES {
+        if samples(&whole) <= WHOLE_SAMPLES && sensor.pixels() <= MOST_PIXELS {
             return whole;
         }
+        let is_enough = |grid: &Self| samples(grid) <= MOST_SAMPLES && grid.size.pixels() <= MOST_PIXELS;
         let most = sensor.width.max(sensor.height);
-        (2..most).map(spread).find(|grid| samples(grid) <= MOST_SAMPLES).unwrap_or_else(|| spread(most))
+        (2..most).map(spread).find(is_enough).unwrap_or_else(|| spread(most))
     }
 
     /// As many pixels without gaps, of which `is_target` (all of the sensor's) tells where most edges are; nothing where this has none.
@@ -86,10 +88,13 @@ mod tests {
 
     #[test]
     fn what_is_small_is_whole_and_what_is_large_is_seen_evenly() {
-        let whole = Grid::of(SENSOR, 400);
+        let small = Geometry { width: 80, height: 60 };
+        let whole = Grid::of(small, 1600);
         assert_eq!(whole.every, 1);
-        assert_eq!(whole.pixels(), (0..160 * 120).collect::<Vec<_>>());
-        assert_eq!(whole.close(&[true; 160 * 120]), None);
+        assert_eq!(whole.pixels(), (0..80 * 60).collect::<Vec<_>>());
+        assert_eq!(whole.close(&[true; 80 * 60]), None);
+        assert_eq!(Grid::of(small, 2000).every, 2);
+        assert_eq!(Grid::of(SENSOR, 1).every, 2);
         // 2500 frames: 5 million samples are 2000 pixels; 54 x 40 are too many, 40 x 30 are not.
         let large = Grid::of(SENSOR, 2500);
         assert_eq!((large.every, large.geometry()), (4, Geometry { width: 40, height: 30 }));

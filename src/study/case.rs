@@ -39,9 +39,7 @@ const FRAME_PERIOD_S: f64 = 0.025;
 
 impl Case {
     fn data(&self, size: Geometry) -> Result<Data> {
-        let mut camera = practice_camera(size);
-        // The field of view of 24 pixels' width.
-        camera.focal_length_px *= size.width as f64 / 24.0;
+        let camera = practice_camera(size);
         let sensor = sensor(&camera);
         let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: FRAME_PERIOD_S, seed: self.seed };
         let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
