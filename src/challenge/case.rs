@@ -1,10 +1,11 @@
 //! A campaign to be examined: drawn, with its label.
 
 use super::draw::{Scale, world};
-use super::label::{Hidden, Label};
+use super::label::{Hidden, Label, NEAR};
+use super::limit::limit;
 use crate::problem::{Problem, Result};
 use crate::recording::Recording;
-use crate::time_domain::{Flaw, Hook, Known, Mechanism, Ruler, World, flaws, recordings};
+use crate::time_domain::{Flaw, Hook, Known, Mechanism, Movie, Ruler, World, flaws, movie, recordings};
 use rand::seq::{IndexedRandom, SliceRandom};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -44,6 +45,8 @@ const LARGER: f64 = 5.0;
 const TRIALS: usize = 60;
 /// Below this strength an effect is not worth a case.
 const FAINTEST: f64 = 4.0;
+/// Shapes of another effect that are tried for likeness.
+const SHAPES: usize = 3;
 /// Names that no recording at one modulation frequency tells apart.
 const SAME: [(&str, &str); 1] = [("encoder_scale", "modulation_frequency_error")];
 
@@ -93,14 +96,21 @@ pub fn drawn(count: usize, seed: u64, tiny: bool) -> Vec<Case> {
 struct Drawn {
     world: World,
     known: Known,
-    flaws: Vec<(Flaw, f64)>,
+    /// With its strength alone, and beside the other one.
+    flaws: Vec<(Flaw, f64, f64)>,
     rho: f64,
+    near: Vec<Vec<String>>,
 }
 
 impl Case {
     /// The campaign's folder.
     pub fn name(&self) -> String {
         format!("{:0digits$}", self.number, digits = self.digits)
+    }
+
+    /// How it is drawn.
+    pub fn kind(&self) -> CaseKind {
+        self.kind
     }
 
     /// Its label and its recordings.
@@ -112,9 +122,14 @@ impl Case {
         for _ in 0..TRIALS {
             let mechanisms = self.mechanisms(&mut random);
             if let Some(drawn) = self.trial(&mechanisms, &mut random) {
-                let flaws: Vec<&Flaw> = drawn.flaws.iter().map(|(flaw, _)| flaw).collect();
-                let recordings = recordings(&drawn.world, drawn.known, &flaws, random.random());
-                return Ok((self.label(&drawn), recordings));
+                let flaws: Vec<&Flaw> = drawn.flaws.iter().map(|(flaw, ..)| flaw).collect();
+                let seed = random.random();
+                let recordings = recordings(&drawn.world, drawn.known, &flaws, seed);
+                let noisy = movie(&drawn.world, Known::BOTH, &flaws, Some(seed));
+                let own: Vec<Flaw> = flaws.into_iter().cloned().collect();
+                let ruler = Ruler::of(&drawn.world);
+                let limit = limit(&ruler, drawn.known, &own, noisy, &mut random);
+                return Ok((Label { limit, ..self.label(&drawn) }, recordings));
             }
         }
         Err(Problem::at(
@@ -165,46 +180,54 @@ impl Case {
         let draws: Vec<(f64, u64)> =
             mechanisms.iter().map(|_| (low * (high / low).powf(random.random()), random.random())).collect();
         if mechanisms.is_empty() {
-            return Some(Drawn { world, known, flaws: Vec::new(), rho: 0.0 });
+            return Some(Drawn { world, known, flaws: Vec::new(), rho: 0.0, near: Vec::new() });
         }
         let ruler = Ruler::of(&world);
         let mut found = Vec::new();
+        let mut changes = Vec::new();
         for (index, (mechanism, &(rho, seed))) in mechanisms.iter().zip(&draws).enumerate() {
             let larger = if self.kind == CaseKind::Under && index == 0 { LARGER } else { 1.0 };
             let flaw = Flaw::drawn(mechanism, seed);
-            found.push(match mechanism.hook {
-                // There is only one size of these: that of the world.
-                Hook::Unknown => {
-                    let own = Known {
-                        falloff: mechanism.name != "inverse_square_falloff",
-                        motion: mechanism.name != "axial_motion",
-                    };
-                    let rho = ruler.rho(own, &[]);
-                    (flaw, rho)
-                }
-                _ => ruler.sized(&flaw, larger * rho)?,
-            });
+            // There is only one size of what is the world's own.
+            let is_own = matches!(mechanism.hook, Hook::Unknown);
+            let flaw = if is_own { flaw } else { ruler.sized(&flaw, larger * rho)? };
+            let own = Known {
+                falloff: mechanism.name != "inverse_square_falloff",
+                motion: mechanism.name != "axial_motion",
+            };
+            changes.push(ruler.change(own, &[&flaw]));
+            found.push(flaw);
         }
-        if found.iter().any(|(_, rho)| *rho < FAINTEST) {
+        let rhos: Vec<f64> = changes.iter().map(|change| ruler.norm(change)).collect();
+        let beside: Vec<f64> = match &changes[..] {
+            [one, other] => vec![ruler.norm_beside(one, &[other]), ruler.norm_beside(other, &[one])],
+            _ => rhos.clone(),
+        };
+        if beside.iter().any(|rho| *rho < FAINTEST) {
             return None;
         }
-        let flaws: Vec<&Flaw> = found.iter().map(|(flaw, _)| flaw).collect();
-        let rho = ruler.rho(known, &flaws);
+        let near = near(&ruler, &found, &changes, random);
+        let flaws: Vec<&Flaw> = found.iter().collect();
+        let rho = ruler.norm(&ruler.change(known, &flaws));
         drop(ruler);
-        Some(Drawn { world, known, flaws: found, rho })
+        let strengths = rhos.into_iter().zip(beside);
+        let flaws =
+            found.into_iter().zip(strengths).map(|(flaw, (rho, beside))| (flaw, rho, beside)).collect();
+        Some(Drawn { world, known, flaws, rho, near })
     }
 
     fn label(&self, drawn: &Drawn) -> Label {
-        let hidden = |(flaw, rho): &(Flaw, f64)| Hidden {
+        let hidden = |(flaw, rho, beside): &(Flaw, f64, f64)| Hidden {
             name: flaw.mechanism.name.to_owned(),
             size: short(flaw.size),
             unit: flaw.mechanism.unit.to_owned(),
             rho: short(*rho),
+            rho_beside: short(*beside),
         };
         let (outside, inside): (Vec<_>, Vec<_>) =
-            drawn.flaws.iter().partition(|(flaw, _)| flaw.mechanism.is_outside());
+            drawn.flaws.iter().partition(|(flaw, ..)| flaw.mechanism.is_outside());
         let effects: Vec<Hidden> = inside.into_iter().map(hidden).collect();
-        let lives = outside.iter().flat_map(|(flaw, _)| flaw.mechanism.lives);
+        let lives = outside.iter().flat_map(|(flaw, ..)| flaw.mechanism.lives);
         let or = SAME.iter().filter_map(|&(one, other)| {
             let swap = |name: &str| match name {
                 name if name == one => other.to_owned(),
@@ -219,12 +242,40 @@ impl Case {
             case: self.name(),
             kind: self.kind,
             or: or.collect(),
+            near: drawn.near.clone(),
+            limit: Vec::new(),
             lives: lives.map(|&name| name.to_owned()).collect(),
             outside: outside.first().map(|&flaw| hidden(flaw)),
             effects,
             rho: short(drawn.rho),
         }
     }
+}
+
+/// Sets of names in which one of the flaws is another effect, some sum of whose shapes would leave next to nothing of its change.
+fn near(ruler: &Ruler, flaws: &[Flaw], changes: &[Movie], random: &mut ChaCha8Rng) -> Vec<Vec<String>> {
+    let names: Vec<&str> = flaws.iter().map(|flaw| flaw.mechanism.name).collect();
+    let mut sets = Vec::new();
+    if flaws.iter().any(|flaw| flaw.mechanism.is_outside()) {
+        return sets;
+    }
+    let others = flaws::all().filter(|row| {
+        let is_own = names.iter().any(|name| row.name == *name || same(row.name, name));
+        !row.is_outside() && !is_own && !matches!(row.hook, Hook::Unknown)
+    });
+    for other in others {
+        let shapes: Vec<Movie> =
+            (0..SHAPES).map(|_| ruler.change(Known::BOTH, &[&Flaw::drawn(other, random.random())])).collect();
+        for (place, change) in changes.iter().enumerate() {
+            let beside = changes.iter().enumerate().filter(|(index, _)| *index != place);
+            let all: Vec<&Movie> = shapes.iter().chain(beside.map(|(_, change)| change)).collect();
+            if ruler.norm_beside(change, &all) < NEAR {
+                let name = |index| if index == place { other.name } else { names[index] };
+                sets.push((0..names.len()).map(|index| name(index).to_owned()).collect());
+            }
+        }
+    }
+    sets
 }
 
 fn same(one: &str, other: &str) -> bool {

@@ -8,9 +8,9 @@ use serde::Deserialize;
 pub enum Outcome {
     /// Clean and said so; exactly the effects; unexplained where no library has it, with its place first.
     Right,
-    /// A name and those that it cannot be told from here hold the truth.
+    /// A name and those that it cannot be told from here hold the truth; or the name of an effect that would look the same.
     Possible,
-    /// Some of the effects and no other; or unexplained, with another place first.
+    /// Some of the effects, by name or among what a name cannot be told from here, and no other; or unexplained, with another place first.
     Partly,
     /// Nothing asserted of known effects, or no alarm.
     Silent,
@@ -103,28 +103,29 @@ pub fn judge(label: &Label, answer: &Answer) -> Outcome {
         return Outcome::Silent;
     }
     let truths = label.right();
-    let same = |truth: &[&str], named: &[&str]| {
-        truth.len() == named.len() && truth.iter().all(|name| named.contains(name))
-    };
-    if truths.iter().any(|truth| same(truth, &named)) {
+    let near = label.near.iter().map(|names| names.iter().map(String::as_str).collect::<Vec<_>>());
+    let same = |truth: &[&str]| truth.len() == named.len() && truth.iter().all(|name| named.contains(name));
+    let held = |truth: &[&str]| are_held(&answer.effects, truth);
+    if truths.iter().any(|truth| same(truth)) {
         Outcome::Right
-    } else if truths.iter().any(|truth| completed(truth, &answer.effects)) {
+    } else if truths.iter().any(|truth| truth.len() == named.len() && held(truth))
+        || near.into_iter().any(|names| same(&names))
+    {
         Outcome::Possible
-    } else if truths.iter().any(|truth| named.iter().all(|name| truth.contains(name))) {
+    } else if truths.iter().any(|truth| held(truth)) {
         Outcome::Partly
     } else {
         Outcome::Wrong
     }
 }
 
-/// Whether the names of `truth` can be taken one from each of the `asserted` effects, itself or what it cannot be told from.
-fn completed(truth: &[&str], asserted: &[Asserted]) -> bool {
-    let Some((first, others)) = asserted.split_first() else { return truth.is_empty() };
+/// Whether each of the `asserted` effects, itself or what it cannot be told from, is another one of `truth`.
+fn are_held(asserted: &[Asserted], truth: &[&str]) -> bool {
+    let Some((first, others)) = asserted.split_first() else { return true };
     let holds = |name: &str| first.name == name || first.also_possible.iter().any(|rival| rival == name);
-    truth.len() == asserted.len()
-        && (0..truth.len()).filter(|&place| holds(truth[place])).any(|place| {
-            let mut rest = truth.to_vec();
-            rest.remove(place);
-            completed(&rest, others)
-        })
+    (0..truth.len()).filter(|&place| holds(truth[place])).any(|place| {
+        let mut rest = truth.to_vec();
+        rest.remove(place);
+        are_held(others, &rest)
+    })
 }

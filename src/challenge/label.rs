@@ -3,6 +3,9 @@
 use super::case::CaseKind;
 use serde::{Deserialize, Serialize};
 
+/// Of an effect's change, what another effect may leave for both to be called alike in a campaign, in standard deviations.
+pub const NEAR: f64 = 2.5;
+
 /// An effect of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Hidden {
@@ -14,6 +17,8 @@ pub struct Hidden {
     pub unit: String,
     /// Its strength alone, in standard deviations of the whole campaign with each pixel's own numbers projected out.
     pub rho: f64,
+    /// What is left of that where any multiple of the other effect's change is taken away, too.
+    pub rho_beside: f64,
 }
 
 /// The truth about a campaign.
@@ -28,6 +33,13 @@ pub struct Label {
     /// Sets of names that cannot be told from these by any recording of the campaign, and are as right.
     #[serde(default)]
     pub or: Vec<Vec<String>>,
+    /// Sets of names in which one effect is another that would change these frames in the same way but for less than [`NEAR`] standard
+    /// deviations: to name them instead is possible.
+    #[serde(default)]
+    pub near: Vec<Vec<String>>,
+    /// What an observer who knows each effect's exact change says.
+    #[serde(default)]
+    pub limit: Vec<String>,
     /// The effect that no library has.
     #[serde(default)]
     pub outside: Option<Hidden>,
@@ -39,9 +51,9 @@ pub struct Label {
 }
 
 impl Label {
-    /// Strength of the weakest effect; nothing of a clean campaign.
+    /// Strength of the weakest effect, beside the other one; nothing of a clean campaign.
     pub fn weakest(&self) -> Option<f64> {
-        self.effects.iter().chain(&self.outside).map(|hidden| hidden.rho).min_by(f64::total_cmp)
+        self.effects.iter().chain(&self.outside).map(|hidden| hidden.rho_beside).min_by(f64::total_cmp)
     }
 
     /// Every set of names that is right.

@@ -5,6 +5,7 @@ mod case;
 mod draw;
 mod judge;
 mod label;
+mod limit;
 mod score;
 mod seal;
 mod table;

@@ -3,6 +3,7 @@
 use super::case::CaseKind;
 use super::judge::{Answer, Outcome, judge};
 use super::label::Label;
+use super::limit::is_right;
 use std::collections::BTreeMap;
 
 /// How many cases had which outcome.
@@ -64,6 +65,9 @@ pub struct Scored {
     pub kinds: BTreeMap<CaseKind, Tally>,
     /// By the lower end of the range of strengths in [`STRENGTHS`], of the weakest effect.
     pub strengths: [Tally; STRENGTHS.len()],
+    /// Campaigns without an effect that no library has, by the same ranges, clean ones first: how many there are, in how many an observer
+    /// who knows every effect's exact change is right, and in how many the answer is.
+    pub limit: [(usize, usize, usize); STRENGTHS.len() + 1],
     /// Clean campaigns, and alarms among them.
     pub clean: (usize, usize),
     /// Campaigns in which a name was asserted, and those of them that it helped on held-out sets.
@@ -93,6 +97,13 @@ pub fn scored(cases: Vec<(Label, Answer)>) -> Scored {
         let outcome = judge(&label, &answer);
         scored.all.add(outcome);
         scored.kinds.entry(label.kind).or_default().add(outcome);
+        if label.outside.is_none() {
+            let range = label.weakest().map_or(0, |rho| 1 + range(&STRENGTHS, rho));
+            let (cases, limit, answers) = &mut scored.limit[range];
+            *cases += 1;
+            *limit += usize::from(is_right(&label));
+            *answers += usize::from(outcome == Outcome::Right);
+        }
         let alarm = answer.verdict != "clean";
         let mismatch = label.kind != CaseKind::Clean;
         match label.weakest() {

@@ -25,6 +25,13 @@ pub fn table(scored: &Scored) -> String {
         line(row(&between(&STRENGTHS, range, "rho", ""), tally));
     }
     line(String::new());
+    line(format!("{:<22}{:>6}{:>9}{:>9}", "exactly right", "cases", "limit", "answers"));
+    for (place, (cases, limit, right)) in scored.limit.iter().enumerate().filter(|(_, row)| row.0 > 0) {
+        let name =
+            place.checked_sub(1).map_or("clean".to_owned(), |range| between(&STRENGTHS, range, "rho", ""));
+        line(format!("{name:<22}{cases:>6}{limit:>9}{right:>9}"));
+    }
+    line(String::new());
     let (clean, alarms) = scored.clean;
     let (low, high) = interval(alarms, clean);
     line(format!(
@@ -91,7 +98,11 @@ fn truth(label: &Label) -> String {
         .iter()
         .chain(&label.outside)
         .map(|hidden| {
-            format!("{} ({:.3e} {}, rho {:.1})", hidden.name, hidden.size, hidden.unit, hidden.rho)
+            let beside = match hidden.rho_beside < 0.95 * hidden.rho {
+                true => format!(", beside the other {:.1}", hidden.rho_beside),
+                false => String::new(),
+            };
+            format!("{} ({:.3e} {}, rho {:.1}{beside})", hidden.name, hidden.size, hidden.unit, hidden.rho)
                 .replace(" ,", ",")
         })
         .collect();
@@ -145,6 +156,7 @@ pub fn summary(scored: &Scored) -> Value {
         "all": tally(&scored.all),
         "kinds": kinds,
         "strengths": strengths,
+        "limit": scored.limit.map(|(cases, limit, right)| json!({"cases": cases, "limit": limit, "answers": right})),
         "false_alarms": {"clean": scored.clean.0, "alarms": scored.clean.1, "interval_95": [low, high]},
         "held_out": {"named": scored.held_out.0, "better": scored.held_out.1, "chi2_sum_before": scored.chi2.0, "chi2_sum_after": scored.chi2.1},
         "probability_of_names": ranges(&scored.names),

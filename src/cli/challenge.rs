@@ -3,7 +3,7 @@
 use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
-use crate::challenge::{Answer, drawn, entropy, opened, scored, sealed, summary, table};
+use crate::challenge::{Answer, LabelFile, drawn, entropy, opened, scored, sealed, summary, table};
 use crate::problem::{Problem, Result};
 use crate::recording::write_campaign;
 use clap::{Args, Subcommand};
@@ -240,11 +240,9 @@ fn copy_folder(from: &Path, to: &Path) -> std::io::Result<()> {
 
 impl Score {
     fn run(self) -> Result<ExitCode> {
-        let labels = opened(
-            &self.labels.display().to_string(),
-            &read_json(&self.labels)?,
-            &read_json(&self.folder.join(SEALS))?,
-        )?;
+        let sealed: LabelFile = read_json(&self.labels)?;
+        let seals = read_json(&self.folder.join(SEALS))?;
+        let labels = opened(&self.labels.display().to_string(), &sealed, &seals)?;
         let mut cases = Vec::new();
         for label in labels {
             let file = self.folder.join(ANSWERS).join(format!("{}.json", label.case));
@@ -259,6 +257,7 @@ impl Score {
         if let Some(file) = &self.json {
             write_file(file, &json_text(&summary(&scored))?)?;
         }
+        say!("{} of seed {}, all labels fit their seals", counted(scored.cases.len(), "case"), sealed.seed);
         say!("{}", table(&scored).trim_end());
         Ok(ExitCode::SUCCESS)
     }

@@ -4,7 +4,7 @@ use super::exposure::{Movie, movie};
 use super::flaws::Flaw;
 use super::scene::Pixel;
 use super::world::{Known, World};
-use nalgebra::{Matrix4, SymmetricEigen, Vector4};
+use nalgebra::{DMatrix, Matrix4, SymmetricEigen, Vector4};
 
 /// Steps of a pixel's own numbers, relative or in rad.
 const STEP: f64 = 0.01;
@@ -48,7 +48,14 @@ impl<'a> Ruler<'a> {
             up
         });
         let mut ruler = Self { world, clean, slopes, inverses: Vec::new() };
-        ruler.inverses = (0..world.scene.pixels.len()).map(|pixel| ruler.inverse(pixel)).collect();
+        let mut normals = vec![Matrix4::zeros(); world.scene.pixels.len()];
+        for frame in 0..ruler.clean.len() {
+            for (pixel, normal) in normals.iter_mut().enumerate() {
+                let slope = ruler.slope(frame, pixel);
+                *normal += ruler.weight(frame, pixel) * slope * slope.transpose();
+            }
+        }
+        ruler.inverses = normals.iter().map(inverse_of_four).collect();
         ruler
     }
 
@@ -69,67 +76,79 @@ impl<'a> Ruler<'a> {
         Vector4::from_fn(|nuisance, _| self.slopes[nuisance][frame][pixel])
     }
 
-    fn inverse(&self, pixel: usize) -> Matrix4<f64> {
-        let mut normal = Matrix4::zeros();
-        for frame in 0..self.clean.len() {
-            let slope = self.slope(frame, pixel);
-            normal += self.weight(frame, pixel) * slope * slope.transpose();
-        }
-        let scale = normal.diagonal().map(|value| if value > 0.0 { 1.0 / value.sqrt() } else { 0.0 });
-        let scale = Matrix4::from_diagonal(&scale);
-        let eigen = SymmetricEigen::new(scale * normal * scale);
-        let most = eigen.eigenvalues.max();
-        let inverted = eigen.eigenvalues.map(|value| if value > CUT * most { 1.0 / value } else { 0.0 });
-        let vectors = eigen.eigenvectors;
-        scale * vectors * Matrix4::from_diagonal(&inverted) * vectors.transpose() * scale
-    }
-
     /// What `flaws` change in the codes before rounding, of a camera whose simulation knows `known`, DN.
-    fn change(&self, known: Known, flaws: &[&Flaw]) -> Movie {
-        let mut with = movie(self.world, Known::BOTH, flaws, None);
+    pub fn change(&self, known: Known, flaws: &[&Flaw]) -> Movie {
+        self.beyond(known, movie(self.world, Known::BOTH, flaws, None))
+    }
+
+    /// What `frames` are beyond what a camera predicts whose simulation knows `known`, DN.
+    pub fn beyond(&self, known: Known, mut frames: Movie) -> Movie {
         // What the simulation does not know is a flaw, too: the difference from what it would predict.
-        let predicted = if known == Known::BOTH { None } else { Some(movie(self.world, known, &[], None)) };
-        let predicted = predicted.as_ref().unwrap_or(&self.clean);
-        for (with, clean) in with.iter_mut().flatten().zip(predicted.iter().flatten()) {
-            *with -= clean;
+        let unknowing = (known != Known::BOTH).then(|| movie(self.world, known, &[], None));
+        let predicted = unknowing.as_ref().unwrap_or(&self.clean);
+        for (code, predicted) in frames.iter_mut().flatten().zip(predicted.iter().flatten()) {
+            *code -= predicted;
         }
-        with
+        frames
     }
 
-    /// The strength of `flaws` together: the norm of their change, in standard deviations of the whole campaign, with what
+    /// The strength of the difference `change` of all frames: its norm in standard deviations of the whole campaign, with what
     /// each pixel's own numbers can take up taken away.
-    pub fn rho(&self, known: Known, flaws: &[&Flaw]) -> f64 {
-        self.norm(&self.change(known, flaws))
-    }
-
-    /// The norm of the difference `change` of all frames.
     pub fn norm(&self, change: &Movie) -> f64 {
-        let square = |pixel: usize| {
-            let (mut all, mut along) = (0.0, Vector4::zeros());
-            for (frame, change) in change.iter().enumerate() {
-                let weighted = self.weight(frame, pixel) * change[pixel];
-                all += weighted * change[pixel];
-                along += weighted * self.slope(frame, pixel);
-            }
-            (all - along.dot(&(self.inverses[pixel] * along))).max(0.0)
-        };
-        (0..self.inverses.len()).map(square).sum::<f64>().sqrt()
+        self.products(&[change])[(0, 0)].max(0.0).sqrt()
     }
 
-    /// `flaw` with the size at which it has the strength `rho` (within 3 %), and that strength; `None` where its mechanism
+    /// What is left of the strength of `change` where any sum of multiples of `others` is taken away, too.
+    pub fn norm_beside(&self, change: &Movie, others: &[&Movie]) -> f64 {
+        let all: Vec<&Movie> = std::iter::once(change).chain(others.iter().copied()).collect();
+        let products = self.products(&all);
+        let count = others.len();
+        let both = products.view((1, 0), (count, 1)).clone_owned();
+        let inverse = inverse(products.view((1, 1), (count, count)).clone_owned());
+        (products[(0, 0)] - (both.transpose() * inverse * both)[(0, 0)]).max(0.0).sqrt()
+    }
+
+    /// The whitened products of differences with each other, beyond the pixels' own numbers.
+    pub fn products(&self, changes: &[&Movie]) -> DMatrix<f64> {
+        let count = changes.len();
+        let mut products = DMatrix::zeros(count, count);
+        let mut along = vec![vec![Vector4::zeros(); count]; self.inverses.len()];
+        for frame in 0..self.clean.len() {
+            for (pixel, along) in along.iter_mut().enumerate() {
+                let weight = self.weight(frame, pixel);
+                let slope = weight * self.slope(frame, pixel);
+                for (one, first) in changes.iter().enumerate() {
+                    along[one] += first[frame][pixel] * slope;
+                    for (other, second) in changes.iter().enumerate() {
+                        products[(one, other)] += weight * first[frame][pixel] * second[frame][pixel];
+                    }
+                }
+            }
+        }
+        for (along, inverse) in along.iter().zip(&self.inverses) {
+            for one in 0..count {
+                for other in 0..count {
+                    products[(one, other)] -= along[one].dot(&(inverse * along[other]));
+                }
+            }
+        }
+        products
+    }
+
+    /// `flaw` with the size at which it has the strength `rho` (within 3 %); `None` where its mechanism
     /// cannot be as strong or as weak.
-    pub fn sized(&self, flaw: &Flaw, rho: f64) -> Option<(Flaw, f64)> {
+    pub fn sized(&self, flaw: &Flaw, rho: f64) -> Option<Flaw> {
         const TRIALS: usize = 14;
         let (mut low, mut high) = (0.0, flaw.mechanism.most);
         let mut size = flaw.mechanism.usual;
         for _ in 0..TRIALS {
             let flaw = flaw.sized(size);
-            let found = self.rho(Known::BOTH, &[&flaw]);
+            let found = self.norm(&self.change(Known::BOTH, &[&flaw]));
             if !found.is_finite() {
                 return None;
             }
             if (found / rho - 1.0).abs() < 0.03 {
-                return Some((flaw, found));
+                return Some(flaw);
             }
             if found < rho {
                 low = size;
@@ -151,4 +170,20 @@ impl<'a> Ruler<'a> {
         }
         None
     }
+}
+
+/// The inverse of normal equations, without the directions that do not matter.
+fn inverse(normal: DMatrix<f64>) -> DMatrix<f64> {
+    let scale = normal.diagonal().map(|value| if value > 0.0 { 1.0 / value.sqrt() } else { 0.0 });
+    let scale = DMatrix::from_diagonal(&scale);
+    let eigen = SymmetricEigen::new(&scale * normal * &scale);
+    let most = eigen.eigenvalues.max();
+    let inverted = eigen.eigenvalues.map(|value| if value > CUT * most { 1.0 / value } else { 0.0 });
+    let vectors = &scale * eigen.eigenvectors;
+    &vectors * DMatrix::from_diagonal(&inverted) * vectors.transpose()
+}
+
+fn inverse_of_four(normal: &Matrix4<f64>) -> Matrix4<f64> {
+    let inverse = inverse(DMatrix::from_column_slice(4, 4, normal.as_slice()));
+    Matrix4::from_column_slice(inverse.as_slice())
 }

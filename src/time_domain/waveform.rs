@@ -93,6 +93,12 @@ impl Waveform {
         Self { correlation: correlation.collect() }
     }
 
+    /// Where the fundamental is at its crest: −crest_rad behind the light, rad.
+    pub fn crest_rad(&self) -> f64 {
+        let (cosine, sine) = fourier(&self.correlation, 1);
+        (-sine).atan2(cosine)
+    }
+
     /// Amplitudes and phases (rad) of the harmonics from the first on, as far as they matter, relative to the first: in
     /// a_m cos(m x + p_m) with x measured from the fundamental's own crest.
     pub fn harmonics(&self) -> (Vec<f64>, Vec<f64>) {

@@ -20,7 +20,7 @@ pub const MECHANISMS: &[Mechanism] = &[
     mechanism("illumination_droop", "1", 0.01, 0.5, Hook::Clock(illumination_droop), 'a'),
     mechanism("illumination_drift", "1", 0.01, 0.5, Hook::Clock(illumination_drift), 't'),
     mechanism("ambient_drift", "1", 0.05, 3.0, Hook::Clock(ambient_drift), 'a'),
-    mechanism("ambient_flicker", "1", 0.02, 0.9, Hook::Clock(ambient_flicker), 'a'),
+    mechanism("ambient_flicker", "1", 0.02, 0.3, Hook::Clock(ambient_flicker), 'a'),
 ];
 
 const fn mechanism(

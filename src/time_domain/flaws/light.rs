@@ -1,6 +1,7 @@
 //! Flaws of the light and of the waveform.
 
 use super::{Flaw, Hook, Mechanism};
+use crate::frames::Geometry;
 use crate::time_domain::scene::Scene;
 use crate::time_domain::waveform::Waveform;
 use crate::time_domain::world::{Moment, Ray};
@@ -43,19 +44,30 @@ fn multipath(flaw: &Flaw, _: &Moment, _: &Scene, ray: &mut Ray) {
     }
 }
 
-/// Pixels at the target's left and right edge see some of the background beside it.
-fn mixed_pixels(flaw: &Flaw, _: &Moment, scene: &Scene, ray: &mut Ray) {
-    let width = scene.geometry.width;
-    let background = |column: usize| {
-        (column < width).then(|| scene.pixels[ray.row * width + column]).filter(|pixel| !pixel.sees_target)
+/// Each side of the target ends within a pixel: one that sees mostly the target, and some background, or the other way round.
+fn mixed_pixels(flaw: &Flaw, moment: &Moment, scene: &Scene, ray: &mut Ray) {
+    let Geometry { width, height } = scene.geometry;
+    let at = |row: usize, column: usize| {
+        (row < height && column < width).then(|| &scene.pixels[row * width + column])
     };
-    let beside = background(ray.column.wrapping_sub(1)).or_else(|| background(ray.column + 1));
-    if let (true, Some(beside)) = (ray.sees_target, beside) {
-        // Each edge pixel is cut by the edge at another place.
-        let share = flaw.size * (0.3 + 0.7 * flaw.normal(0, ray.row, ray.column).abs().min(1.4));
-        let range_m = scene.background_m * beside.obliquity;
-        ray.amplitude_e *= 1.0 - share;
-        ray.echo = Some((share * beside.amplitude_e / (range_m * range_m), range_m));
+    let (row, column) = (ray.row, ray.column);
+    let beside = [
+        at(row, column.wrapping_sub(1)),
+        at(row, column + 1),
+        at(row.wrapping_sub(1), column),
+        at(row + 1, column),
+    ];
+    for (direction, other) in beside.into_iter().enumerate() {
+        let Some(other) = other.filter(|other| other.sees_target != ray.sees_target) else { continue };
+        // The target's left side is to the left of its own pixels, and to the right of the background's.
+        let side = if ray.sees_target { direction } else { direction ^ 1 };
+        if (flaw.draws[side] < 0.5) == ray.sees_target {
+            let share = flaw.size * flaw.draw(4 + side, 0.4, 1.0);
+            let distance_m = if other.sees_target { moment.position_m } else { scene.background_m };
+            let range_m = distance_m * other.obliquity;
+            ray.amplitude_e *= 1.0 - share;
+            ray.echo = Some((share * other.amplitude_e / (range_m * range_m), range_m));
+        }
     }
 }
 
