@@ -173,7 +173,7 @@ impl Case {
             matches!(row.hook, Hook::Unknown)
                 || ["encoder_latency", "timing_jitter_of_frames"].contains(&row.name)
         };
-        let world = world(random, mechanisms.iter().any(|row| wants_motion(&row)), self.scale);
+        let world = world(random, mechanisms.iter().any(wants_motion), self.scale);
         let absent = |name: &str| mechanisms.iter().all(|row| row.name != name);
         let known = Known { falloff: absent("inverse_square_falloff"), motion: absent("axial_motion") };
         let [low, high] = KINDS.iter().find(|row| row.0 == self.kind).map_or([0.0; 2], |row| row.2);
