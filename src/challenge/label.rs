@@ -33,7 +33,7 @@ pub struct Label {
     /// Sets of names that cannot be told from these by any recording of the campaign, and are as right.
     #[serde(default)]
     pub or: Vec<Vec<String>>,
-    /// Sets of names in which one effect is another that would change these frames in the same way but for less than [`NEAR`] standard
+    /// Sets of names in which one effect is another that would change these frames in the same way but for less than 2.5 standard
     /// deviations: to name them instead is possible.
     #[serde(default)]
     pub near: Vec<Vec<String>>,

@@ -21,7 +21,7 @@ pub struct SealedLabel {
 /// The file of labels.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LabelFile {
-    /// [`LABELS`].
+    /// `vuris-challenge-labels/1`.
     pub format: String,
     /// The seed that all cases follow from.
     pub seed: u64,
@@ -41,7 +41,7 @@ pub struct Seal {
 /// The file of seals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SealFile {
-    /// [`SEALS`].
+    /// `vuris-challenge-seals/1`.
     pub format: String,
     /// A seal a case.
     pub cases: Vec<Seal>,

@@ -26,7 +26,7 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// One period, [`SAMPLES`] values from `floor` to 1 (somewhat less where edges and low pass leave no flat top).
+    /// One period, 4096 values from `floor` to 1 (somewhat less where edges and low pass leave no flat top).
     pub fn samples(&self) -> Vec<f64> {
         let edge = |time: f64, length: f64| (time / length + 0.5).clamp(0.0, 1.0);
         let drive = |sample: usize| {
@@ -56,7 +56,7 @@ pub struct Waveform {
 }
 
 impl Waveform {
-    /// Of a period of light and one of the gate, [`SAMPLES`] each: c(x) = mean over s of light(s + x) gate(s).
+    /// Of a period of light and one of the gate, 4096 values each: c(x) = mean over s of light(s + x) gate(s).
     pub fn of(light: &[f64], gate: &[f64]) -> Self {
         let product = |shift: usize| {
             let (before, after) = light.split_at(shift);
