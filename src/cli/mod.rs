@@ -3,6 +3,7 @@
 mod algorithms;
 mod atlas;
 mod campaign;
+mod challenge;
 mod coverage;
 mod demo;
 mod diagnose;
@@ -53,6 +54,7 @@ enum Command {
     Paper(paper::Paper),
     Sweep(Box<sweep::Sweep>),
     Study(study::Study),
+    Challenge(challenge::Challenge),
     Demo(demo::Demo),
     Diagnose(diagnose::Diagnose),
     Synth(synth::Synth),
@@ -78,6 +80,7 @@ impl Arguments {
             Command::Paper(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Study(command) => command.run(),
+            Command::Challenge(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Diagnose(command) => command.run(),
             Command::Synth(command) => command.run(),
