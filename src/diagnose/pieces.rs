@@ -63,7 +63,8 @@ const GROUPINGS: [(&str, &[Grouping]); 7] = [
 const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8])];
 
 /// Effects of which not all strengths are fitted at once: the numbers of those that are, in each of the ways in which it is tried.
-const ALTERNATIVES: [(&str, &[&[usize]]); 1] = [("intensity_nonlinearity", &[&[0, 1], &[2]])];
+const ALTERNATIVES: [(&str, &[&[usize]]); 2] =
+    [("intensity_nonlinearity", &[&[0, 1], &[2]]), ("mixed_pixels", &[&[0], &[1, 2, 3, 4, 5, 6, 7, 8]])];
 /// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
 const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
 
