@@ -202,10 +202,11 @@ fn every_effect_obeys_every_law() {
 #[test]
 fn the_registry_holds_each_effect_once() {
     let names = "correlation_harmonics inverse_square_falloff axial_motion multipath_interference lens_scatter mixed_pixels \
-                 ambient_drift ambient_flicker illumination_droop illumination_drift phase_step_scale phase_step_errors \
-                 phase_drift clock_jitter demodulation_skew modulation_frequency_error intensity_nonlinearity saturation \
+                 ambient_drift ambient_flicker illumination_droop illumination_drift phase_step_scale \
+                 phase_step_errors phase_drift clock_jitter demodulation_skew modulation_frequency_error intensity_nonlinearity saturation \
                  image_lag charge_crosstalk tap_mismatch adc_nonlinearity intensity_related_phase electrical_crosstalk \
-                 encoder_scale encoder_cyclic frame_gain timing_jitter_of_frames lateral_motion excess_noise fixed_point";
+                 encoder_scale encoder_cyclic frame_gain timing_jitter_of_frames lateral_motion excess_noise fixed_point \
+                 response_decay";
     let registry: Vec<&str> = EFFECTS.iter().map(|effect| effect.name).collect();
     assert_eq!(registry, names.split_whitespace().collect::<Vec<_>>());
 }

@@ -50,7 +50,6 @@ pub static EFFECTS: &[&Effect] = &[
     &ambient_flicker::EFFECT,
     &illumination_droop::EFFECT,
     &illumination_drift::EFFECT,
-    &response_decay::EFFECT,
     &phase_step_scale::EFFECT,
     &phase_step_errors::EFFECT,
     &phase_drift::EFFECT,
@@ -72,6 +71,8 @@ pub static EFFECTS: &[&Effect] = &[
     &lateral_motion::EFFECT,
     &excess_noise::EFFECT,
     &fixed_point::EFFECT,
+    // New ones come last: what chance draws follows the order.
+    &response_decay::EFFECT,
 ];
 
 /// The effect called `name`.
