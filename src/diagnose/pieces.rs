@@ -62,9 +62,6 @@ const GROUPINGS: [(&str, &[Grouping]); 7] = [
 /// Effects that start with a corner, and the values at which they are tried.
 const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8])];
 
-/// Effects of which not all strengths are fitted at once: the numbers of those that are, in each of the ways in which it is tried.
-const ALTERNATIVES: [(&str, &[&[usize]]); 2] =
-    [("intensity_nonlinearity", &[&[0, 1], &[2]]), ("mixed_pixels", &[&[0], &[1, 2, 3, 4, 5, 6, 7, 8]])];
 /// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
 const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
 
@@ -150,9 +147,11 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let shapes: &[f64] = shape.map_or(&[0.0], |shape| effect.parameters[shape].shapes);
     let groupings = GROUPINGS.iter().find(|(name, _)| *name == effect.name);
     let groupings = groupings.map_or(&[Grouping::All][..], |(_, groupings)| groupings);
-    let strengths = effect.parameters.iter().enumerate().filter(|(_, parameter)| !parameter.is_shape());
-    let strengths: Vec<usize> = strengths.map(|(number, _)| number).collect();
-    let alternatives = ALTERNATIVES.iter().find(|(name, _)| *name == effect.name);
+    let strengths = |instead: bool| -> Vec<usize> {
+        let all = effect.parameters.iter().enumerate();
+        all.filter(|(_, p)| !p.is_shape() && p.is_instead == instead).map(|(number, _)| number).collect()
+    };
+    let (strengths, instead) = (strengths(false), strengths(true));
     let mut variants = Vec::new();
     for &value in found.unwrap_or(shapes) {
         let mut values = effect.off();
@@ -162,8 +161,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         // A phase shifter that has settings of its own has the same in all recordings.
         let is_shared = shape.is_some_and(|shape| effect.parameters[shape].is_choice) && value > 0.0;
         let groupings = if is_shared { &[Grouping::All][..] } else { groupings };
-        let strengths = if is_shared { &strengths[..value as usize] } else { &strengths };
-        for strengths in alternatives.map_or(&[strengths][..], |(_, alternatives)| alternatives) {
+        let strengths = if is_shared { &strengths[..value as usize] } else { &strengths[..] };
+        for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
             let of = |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data) };
             variants.extend(groupings.iter().map(of));
         }

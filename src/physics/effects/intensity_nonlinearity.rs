@@ -11,7 +11,7 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("quadratic", "1", 0.0, (-0.6, 0.6), 0.02),
         Parameter::strength("cubic", "1", 0.0, (-0.6, 0.6), 0.02),
-        Parameter::strength("exponent", "1", 0.0, (-0.6, 2.0), 0.02),
+        Parameter::strength("exponent", "1", 0.0, (-0.6, 2.0), 0.02).instead(),
     ],
     place: Place::Readout,
     chance: Chance::None,
