@@ -8,7 +8,7 @@ VURIS := $(or $(CARGO_TARGET_DIR),target)/release/vuris
 unexport MAKEFLAGS MFLAGS
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove study picture clean
+.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove study proof picture clean
 
 help:      ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
@@ -61,6 +61,15 @@ prove: setup build ## formal proofs, their covers, and designs in which each mus
 
 study: build ## how often the diagnosis is right: docs/study.md (half an hour)
 	$(VURIS) study --nulls 200 --repeats 1 --seed 1 --out docs
+
+PROOF := $(or $(CARGO_TARGET_DIR),target)/proof
+
+proof: build ## two hundred blind campaigns of a second generator: made, answered, scored (twenty minutes)
+	rm -rf $(PROOF) $(PROOF)-labels.json
+	$(VURIS) challenge make --cases 200 --seed-from-entropy --out $(PROOF)
+	$(VURIS) challenge answer $(PROOF)
+	@date -u +%F
+	$(VURIS) challenge score $(PROOF) --labels $(PROOF)-labels.json --json $(PROOF)-score.json
 
 picture: setup build ## draw the pictures in docs/images anew
 	$(VURIS) scene --out docs/images

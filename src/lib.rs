@@ -33,10 +33,12 @@
 //! | [`reference`](mod@reference), [`ranging`] | the same computation in floating point; ranges against the encoder |
 //! | [`algorithms`] | phase algorithms: characteristic polynomials, verdicts, sensitivities, the design of rows |
 //! | [`physics`] | the forward simulator of raw frames, and its effects, one file each |
+//! | [`time_domain`] | a second, independent generator of raw frames: pulses, light paths, charge |
 //! | [`bench`](mod@bench) | recordings and the simulator together: campaigns, what each effect does to perfect data |
 //! | [`paper`] | the camera's paper computed again: each figure and table, the open question, the rivals |
 //! | [`diagnose`] | where recordings and simulation disagree, and which physics was left out |
 //! | [`study`] | how often the diagnosis is right, on simulated campaigns |
+//! | [`challenge`] | blind campaigns from the second generator: made, sealed, scored |
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
@@ -45,6 +47,7 @@
 //! # What is absent on purpose
 //! - **No floating point in [`model`]**, no I/O, nothing that can fail. Constants come from [`spec::exact`].
 //! - **[`model`] and [`physics`] never see each other**: they meet in frames. [`hdl`] never sees [`physics`].
+//! - **[`time_domain`] and the code that it examines never see each other**: [`physics`], [`bench`](mod@bench), [`diagnose`] and [`study`].
 //! - **Only [`cli`], [`recording`], [`import`], [`artifact`], [`cosim`], [`proof`], [`synthesis`] and the reading of a
 //!   specification touch files or processes**; only [`cli`] knows clap, only [`hdl`], [`package`] and [`report`] may know askama.
 //!
@@ -53,6 +56,7 @@
 pub mod algorithms;
 pub mod artifact;
 pub mod bench;
+pub mod challenge;
 pub mod cli;
 pub mod cosim;
 pub mod diagnose;
@@ -74,4 +78,5 @@ pub mod spec;
 pub mod study;
 pub mod sweep;
 pub mod synthesis;
+pub mod time_domain;
 pub mod units;

@@ -14,9 +14,11 @@ const EDGES: &Edges = &[
     ("main", "cli"),
     (
         "cli",
-        "algorithms artifact bench cosim diagnose frames hdl import model package paper physics problem proof ranging recording reference report spec \
+        "algorithms artifact bench challenge cosim diagnose frames hdl import model package paper physics problem proof ranging recording reference report spec \
          study sweep synthesis units",
     ),
+    ("challenge", "frames problem recording study time_domain"),
+    ("time_domain", "frames recording units"),
     ("study", "bench diagnose frames physics problem"),
     ("package", "artifact hdl report spec units"),
     ("report", "algorithms bench diagnose frames hdl paper physics problem spec sweep synthesis units"),
@@ -47,9 +49,9 @@ const EDGES: &Edges = &[
 const LAYERS: &[&str] = &[
     "main",
     "cli",
-    "package proof report study",
+    "challenge package proof report study",
     "diagnose ranging",
-    "bench import paper sweep synthesis",
+    "bench import paper sweep synthesis time_domain",
     "cosim hdl physics recording",
     "algorithms model reference",
     "spec frames units",
@@ -58,12 +60,25 @@ const LAYERS: &[&str] = &[
 ];
 
 /// Who must not reach whom, not even through others.
-const STRANGERS: &[(&str, &str)] = &[("model", "physics"), ("physics", "model"), ("hdl", "physics")];
+const STRANGERS: &[(&str, &str)] = &[
+    ("model", "physics"),
+    ("physics", "model"),
+    ("hdl", "physics"),
+    ("time_domain", "physics"),
+    ("time_domain", "bench"),
+    ("time_domain", "diagnose"),
+    ("time_domain", "study"),
+    ("physics", "time_domain"),
+    ("bench", "time_domain"),
+    ("diagnose", "time_domain"),
+    ("study", "time_domain"),
+];
 
 /// The sentences of the crate's docs on what is absent, each of them checked below.
 const ABSENT: &[&str] = &[
     "**No floating point in [`model`]**, no I/O, nothing that can fail. Constants come from [`spec::exact`].",
     "**[`model`] and [`physics`] never see each other**: they meet in frames. [`hdl`] never sees [`physics`].",
+    "**[`time_domain`] and the code that it examines never see each other**: [`physics`], [`bench`](mod@bench), [`diagnose`] and [`study`].",
     "**Only [`cli`], [`recording`], [`import`], [`artifact`], [`cosim`], [`proof`], [`synthesis`] and the reading of a \
      specification touch files or processes**; only [`cli`] knows clap, only [`hdl`], [`package`] and [`report`] may know askama.",
 ];

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vuris::bench::{practice_camera, sensor};
 use vuris::frames::Geometry;
 use vuris::physics::{
-    Active, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Formula, Included, Memory, Moment,
-    Parameter, Place, Stage, Target,
+    Act, Active, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Formula, Included, Memory,
+    Moment, Parameter, Place, Stage, Target,
 };
 
 const SMALL: Geometry = Geometry { width: 8, height: 6 };
@@ -17,7 +17,7 @@ fn chain_of(effects: Vec<Active>) -> Chain {
     let sensor = sensor(&practice_camera(SMALL));
     let pixels = Arc::new(Stage::bench().pixels(&sensor, 5));
     let included = Included { axial_motion: true, inverse_square_falloff: true };
-    Chain { pixels, correlation: Correlation::measured(), included, effects }
+    Chain::new(pixels, Correlation::measured(), included, effects)
 }
 
 fn moment(frame: usize, position_m: f64, velocity_m_s: f64, offset_rad: f64, lit: bool) -> Moment {
@@ -52,7 +52,7 @@ fn memory(chain: &Chain, deviate: f64) -> Memory {
     Memory {
         noisy: false,
         before_dn: Some(Arc::new(Draws::of(1, 1).normal(pixels).iter().map(|d| 300.0 + 50.0 * d).collect())),
-        deviates: vec![deviate; chain.effects.len()],
+        deviates: vec![deviate; chain.effects().len()],
         pixel_deviates: Draws::of(2, 1).normal(pixels).iter().map(|d| deviate * d).collect(),
     }
 }
@@ -202,10 +202,11 @@ fn every_effect_obeys_every_law() {
 #[test]
 fn the_registry_holds_each_effect_once() {
     let names = "correlation_harmonics inverse_square_falloff axial_motion multipath_interference lens_scatter mixed_pixels \
-                 ambient_drift ambient_flicker illumination_droop illumination_drift phase_step_scale phase_step_errors \
-                 phase_drift clock_jitter demodulation_skew modulation_frequency_error intensity_nonlinearity saturation \
+                 ambient_drift ambient_flicker illumination_droop illumination_drift phase_step_scale \
+                 phase_step_errors phase_drift clock_jitter demodulation_skew modulation_frequency_error intensity_nonlinearity saturation \
                  image_lag charge_crosstalk tap_mismatch adc_nonlinearity intensity_related_phase electrical_crosstalk \
-                 encoder_scale encoder_cyclic frame_gain timing_jitter_of_frames lateral_motion excess_noise fixed_point";
+                 encoder_scale encoder_cyclic frame_gain timing_jitter_of_frames lateral_motion excess_noise fixed_point \
+                 response_decay";
     let registry: Vec<&str> = EFFECTS.iter().map(|effect| effect.name).collect();
     assert_eq!(registry, names.split_whitespace().collect::<Vec<_>>());
 }
@@ -224,15 +225,14 @@ fn broken_effects_are_caught() {
             place: Place::Readout,
             chance: Chance::None,
             looks_back: false,
-            act,
-            formula: None,
+            act: Act::Code(act),
         }))
     }
     fn add(exposure: &mut Exposure, dn: f64) {
         exposure.signal_dn.iter_mut().for_each(|signal| *signal += dn);
     }
-    type Act = fn(&[f64], &mut Exposure);
-    let mutants: [(&str, Act); 6] = [
+    type Code = fn(&[f64], &mut Exposure);
+    let mutants: [(&str, Code); 6] = [
         ("off is the identity", |values, exposure| add(exposure, 1e-9 + values[0])),
         ("finite within bounds", |values, exposure| add(exposure, values[0] / (1.0 - values[0]))),
         ("deterministic", |values, exposure| {
@@ -268,8 +268,7 @@ fn formulas_act_after_the_registrys_effects() {
         place: Place::Charge,
         chance: Chance::None,
         looks_back: false,
-        act: |_, _| (),
-        formula: Some(formula),
+        act: Act::Formula(Box::new(formula)),
     }));
     let crosstalk = EFFECTS.iter().find(|effect| effect.name == "electrical_crosstalk").unwrap();
     let signal = |effects: &[&'static Effect]| {

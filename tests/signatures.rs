@@ -43,7 +43,7 @@ fn row(amplitude_dn: &[f64]) -> Pixels {
 fn still_frame(amplitude_dn: &[f64], effects: Vec<Active>, frame: usize) -> Vec<f64> {
     let included = Included { axial_motion: false, inverse_square_falloff: false };
     let pixels = Arc::new(row(amplitude_dn));
-    let chain = Chain { pixels, correlation: Correlation::sinusoidal(), included, effects };
+    let chain = Chain::new(pixels, Correlation::sinusoidal(), included, effects);
     let moment = Moment {
         set: 0,
         frame,
@@ -108,7 +108,7 @@ impl Experiment {
             pixels.phase_rad = (0..OFFSETS).map(|n| -(n as f64) * TAU / OFFSETS as f64).collect();
         }
         let pixels = Arc::new(pixels);
-        let chain = Chain { pixels, correlation: self.correlation.clone(), included, effects: active };
+        let chain = Chain::new(pixels, self.correlation.clone(), included, active);
         let sensor = sensor(&practice_camera(Geometry { width: 1, height: 1 }));
         let set_s = self.steps_rad.len() as f64 * PERIOD_S;
         let set = |set: usize| SetRow {

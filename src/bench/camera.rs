@@ -16,16 +16,13 @@ const CONSTANT_RATIO: f64 = 2.2;
 /// A small camera with 12 bits, the lens of a campaign on the rail, and the odd harmonics of a triangle with rounded corners.
 pub fn practice_camera(geometry: Geometry) -> Camera {
     Camera {
-        geometry,
-        adc_bits: 12,
         pedestal_dn: 64.0,
         gain_e_per_dn: 12.0,
         read_noise_e: 36.0,
         focal_length_px: 33.0 * geometry.width as f64 / 24.0,
         correlation_amplitude: vec![1.0, 0.0, 0.024_129, 0.0, 0.003_372, 0.0, 0.000_892],
         correlation_phase_rad: vec![0.0, 0.0, -0.2421, 0.0, -0.4719, 0.0, -0.69],
-        included_physics: vec![AXIAL_MOTION.to_owned(), INVERSE_SQUARE_FALLOFF.to_owned()],
-        effects: Vec::new(),
+        ..Camera::assumed(geometry, 12)
     }
 }
 
@@ -58,13 +55,9 @@ pub fn chain(camera: &Camera, pixels: Arc<Pixels>, effects: Vec<Active>) -> Chai
         .collect();
     // Not `Camera::includes`: an effect with a value acts with the others, and is not in the baseline besides.
     let included = |name: &str| camera.included_physics.iter().any(|included| included == name);
-    Chain {
-        pixels,
-        correlation: Correlation::with_harmonics(&harmonics),
-        included: Included {
-            axial_motion: included(AXIAL_MOTION),
-            inverse_square_falloff: included(INVERSE_SQUARE_FALLOFF),
-        },
-        effects,
-    }
+    let included = Included {
+        axial_motion: included(AXIAL_MOTION),
+        inverse_square_falloff: included(INVERSE_SQUARE_FALLOFF),
+    };
+    Chain::new(pixels, Correlation::with_harmonics(&harmonics), included, effects)
 }

@@ -2,11 +2,7 @@
 
 use crate::physics::{Active, EFFECTS, Effect, Parameter, effects};
 use crate::problem::{Problem, Result};
-use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, effect_name};
-
-/// What the baseline can include, by the effect that stands for it where it is not.
-const ALSO_INCLUDED: [(&str, &str); 2] =
-    [("axial_motion", AXIAL_MOTION), ("inverse_square_falloff", INVERSE_SQUARE_FALLOFF)];
+use crate::recording::{BASELINE, Camera, effect_name};
 
 /// The effect that `text` names. Parameters that it does not name have their off value; where it names none, all are those of
 /// [`Effect::example`].
@@ -78,7 +74,7 @@ pub fn camera_effects(camera: &Camera, recording: &str) -> Result<Vec<Active>> {
 #[must_use]
 pub fn included_without(mut camera: Camera, effects: &[Active]) -> Camera {
     let brought = |name: &str| effects.iter().any(|active| active.effect.name == name);
-    for (name, included) in ALSO_INCLUDED.into_iter().filter(|(name, _)| brought(name)) {
+    for (name, included) in BASELINE.into_iter().filter(|(name, _)| brought(name)) {
         camera.included_physics.retain(|known| known != included);
         camera.effects.retain(|text| effect_name(text) != name);
     }
@@ -90,6 +86,7 @@ mod tests {
     use super::*;
     use crate::bench::practice_camera;
     use crate::frames::Geometry;
+    use crate::recording::AXIAL_MOTION;
 
     #[test]
     fn effects_are_named_with_values_or_without() {

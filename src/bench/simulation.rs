@@ -39,7 +39,7 @@ impl Simulation<'_> {
     fn deviates(&self, draws: &FrameDraws) -> Vec<f64> {
         let place = |name: &str| EFFECTS.iter().position(|effect| effect.name == name);
         let deviate = |name: &str| place(name).map_or(0.0, |place| draws.registry[place]);
-        self.chain.effects.iter().map(|active| deviate(active.effect.name)).collect()
+        self.chain.effects().iter().map(|active| deviate(active.effect.name)).collect()
     }
 
     /// Frame number `index` of `course`, and the noise of its pixels; `before_dn` is what light brought to the frame before, where that

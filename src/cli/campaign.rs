@@ -1,10 +1,10 @@
-//! A recording, or a campaign of recordings, with the pipeline that fits each.
+//! A recording, or a campaign of recordings, with the pipeline that fits each; what is said of its camera.
 
 use super::SchemeArgument;
-use super::print::say;
+use super::print::{remark, say};
 use crate::problem::{Problem, Result};
-use crate::recording::Recording;
 use crate::recording::matching::{SchemeChoice, pipeline_for};
+use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, Recording};
 use crate::spec::Pipeline;
 use std::path::{Path, PathBuf};
 
@@ -60,5 +60,15 @@ pub(super) fn open(folder: &Path, base: &Pipeline, scheme: SchemeArgument) -> Re
     match refusal {
         Some(problem) if fitted.is_empty() => Err(problem),
         _ => Ok(fitted),
+    }
+}
+
+/// A remark on everything that `camera` is said to include and that is not simulated.
+pub(super) fn remark_on_physics(camera: &Camera) {
+    for name in camera.unknown_physics() {
+        remark(format_args!(
+            "camera.toml includes {name}, which is not simulated (by name, {AXIAL_MOTION} and {INVERSE_SQUARE_FALLOFF} are; \
+             others stand with values in physics.effects)"
+        ));
     }
 }

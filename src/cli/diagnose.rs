@@ -1,7 +1,7 @@
 //! `vuris diagnose`
 
-use super::campaign::recordings_in;
-use super::print::{counted, remark_on_physics, say};
+use super::campaign::{recordings_in, remark_on_physics};
+use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
 use crate::diagnose::{Data, Diagnosis, camera_with, diagnose, library};
@@ -64,7 +64,7 @@ impl Diagnose {
                 write_file(file, &camera_with(&data, &diagnosis.judgement).to_toml())?;
             }
             if let Some(file) = &self.report {
-                write_file(file, &diagnosis_page(campaign, &diagnosis, data.geometry())?)?;
+                write_file(file, &diagnosis_page(campaign, &diagnosis)?)?;
             }
             match &self.json {
                 Some(file) if file == Path::new("-") => say!("{text}"),

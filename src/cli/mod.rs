@@ -3,6 +3,7 @@
 mod algorithms;
 mod atlas;
 mod campaign;
+mod challenge;
 mod coverage;
 mod demo;
 mod diagnose;
@@ -10,6 +11,7 @@ mod explain;
 mod generate;
 mod import;
 mod mutate;
+mod option;
 mod paper;
 mod print;
 mod process;
@@ -52,6 +54,7 @@ enum Command {
     Paper(paper::Paper),
     Sweep(Box<sweep::Sweep>),
     Study(study::Study),
+    Challenge(challenge::Challenge),
     Demo(demo::Demo),
     Diagnose(diagnose::Diagnose),
     Synth(synth::Synth),
@@ -77,6 +80,7 @@ impl Arguments {
             Command::Paper(command) => command.run(),
             Command::Sweep(command) => command.run(),
             Command::Study(command) => command.run(),
+            Command::Challenge(command) => command.run(),
             Command::Demo(command) => command.run(),
             Command::Diagnose(command) => command.run(),
             Command::Synth(command) => command.run(),

@@ -1,7 +1,6 @@
 //! Printing: a reader that has gone away is no error, anything else on standard output is one.
 
 use crate::problem::{Problem, Result};
-use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write};
 
@@ -31,14 +30,4 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
 /// A remark on standard error, for whoever watches; where it cannot be written, nobody does.
 pub(super) fn remark(text: Arguments) {
     let _ = std::io::stderr().lock().write_fmt(format_args!("{text}\n"));
-}
-
-/// A remark on everything that `camera` is said to include and that is not simulated.
-pub(super) fn remark_on_physics(camera: &Camera) {
-    for name in camera.unknown_physics() {
-        remark(format_args!(
-            "camera.toml includes {name}, which is not simulated (by name, {AXIAL_MOTION} and {INVERSE_SQUARE_FALLOFF} are; \
-             others stand with values in physics.effects)"
-        ));
-    }
 }

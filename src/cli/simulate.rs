@@ -1,6 +1,8 @@
 //! `vuris simulate`
 
-use super::print::{counted, remark, remark_on_physics, say};
+use super::campaign::remark_on_physics;
+use super::option::{each_once, in_range};
+use super::print::{counted, remark, say};
 use super::progress;
 use crate::bench::{
     Course, Plan, Simulation, camera_effects, chain, included_without, injection_for, number_of,
@@ -111,28 +113,14 @@ impl Simulate {
         remark_on_physics(&camera);
         let effects: Vec<Active> =
             self.effect.iter().map(|text| injection_for(text, camera.adc_bits)).collect::<Result<_>>()?;
-        let twice = (1..effects.len())
-            .find(|&n| effects[..n].iter().any(|before| before.effect.name == effects[n].effect.name));
-        if let Some(twice) = twice {
-            let found = format!("{} is there twice", effects[twice].effect.name);
-            return Err(Problem::at("--effect", found).expected("each effect once"));
-        }
-        let in_range = |name: &str, value: f64, low: f64, high: f64| {
-            let found = format!("{value:e}");
-            let problem =
-                || Problem::at(name, found).expected(format_args!("a number from {low:e} to {high:e}"));
-            if (low..=high).contains(&value) { Ok(()) } else { Err(problem()) }
-        };
-        in_range("--frequency-hz", self.frequency_hz, 1e4, 1e10)?;
-        in_range("--frame-period-s", self.frame_period_s, 1e-6, 100.0)?;
+        each_once("--effect", "effect", effects.iter().map(|active| active.effect.name))?;
+        in_range("--frequency-hz", self.frequency_hz, &(1e4..=1e10))?;
+        in_range("--frame-period-s", self.frame_period_s, &(1e-6..=100.0))?;
         let (camera, sensor) = self.camera(camera, &effects)?;
         let plan =
             Plan { frequency_hz: self.frequency_hz, frame_period_s: self.frame_period_s, seed: self.seed };
         let names = if self.recordings.is_empty() { Plan::names() } else { self.recordings.clone() };
-        if let Some(twice) = (1..names.len()).find(|&n| names[..n].contains(&names[n])) {
-            return Err(Problem::at("--recordings", format_args!("{} is there twice", names[twice]))
-                .expected("each recording once"));
-        }
+        each_once("--recordings", "recording", names.iter().map(String::as_str))?;
         let courses: Vec<Course> = names.iter().map(|name| plan.course(name)).collect::<Result<_>>()?;
         if let Some(present) = names.iter().map(|name| out.join(name)).find(|folder| folder.exists()) {
             return Err(Problem::in_file(&present, "is there already").expected("a new campaign"));
@@ -186,8 +174,7 @@ impl Simulate {
     /// What the campaign's camera.toml says, and the sensor with its assumed light.
     fn camera(&self, mut camera: Camera, effects: &[Active]) -> Result<(Camera, Sensor)> {
         if let Some(geometry) = self.size {
-            camera.focal_length_px *= geometry.width as f64 / camera.geometry.width as f64;
-            camera.geometry = geometry;
+            camera = camera.resized(geometry);
         }
         let mut constant_ratio = None;
         if let (Some(light), Some(demodulation)) = (&self.light, &self.demodulation) {

@@ -5,7 +5,7 @@ use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
 use crate::physics::{Active, Effect, Moment, effects};
 use crate::problem::{Problem, Result};
-use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF, Recording};
+use crate::recording::{Camera, Recording};
 use serde::Serialize;
 
 /// A recording's frames.
@@ -26,7 +26,7 @@ pub struct Take {
 /// Recordings of one camera.
 #[derive(Debug, Clone)]
 pub struct Data {
-    /// What the simulation of the camera includes, with the pixels that are looked at.
+    /// What the simulation of the camera includes, as if it had no pixels but those that are looked at.
     pub camera: Camera,
     /// The same, as it was described.
     pub described: Camera,
@@ -42,6 +42,8 @@ pub struct Data {
     pub library: Vec<&'static Effect>,
     /// What was taken for granted, as no file says it.
     pub assumed: Assumed,
+    /// Of a grid with gaps, pixels without gaps: what neighbours make is seen there alone.
+    pub close: Option<Box<Self>>,
     /// Whether there is a recording without the camera's light.
     has_dark: bool,
 }
@@ -53,23 +55,6 @@ pub struct Assumed {
     pub camera: bool,
     /// No set has a position: the scene stands still, and each pixel sees its own part of it.
     pub still_scene: bool,
-}
-
-/// What is taken for the camera of `recordings` that come without a description.
-fn assumed_camera(recordings: &[Recording], first: &Recording) -> Camera {
-    Camera {
-        geometry: first.geometry(),
-        adc_bits: recordings.iter().map(Recording::adc_bits).max().unwrap_or(16),
-        pedestal_dn: 0.0,
-        gain_e_per_dn: 1.0,
-        read_noise_e: 1.0,
-        // Rays that are parallel.
-        focal_length_px: 1e9,
-        correlation_amplitude: vec![1.0],
-        correlation_phase_rad: vec![0.0],
-        included_physics: vec![AXIAL_MOTION.to_owned(), INVERSE_SQUARE_FALLOFF.to_owned()],
-        effects: Vec::new(),
-    }
 }
 
 /// Above so many codes below full scale a sample is clipped, or about to be.
@@ -86,21 +71,45 @@ impl Data {
                 Problem::at("diagnosis", "no recording").expected("a recording, or a campaign of recordings")
             );
         };
-        let camera = first.camera.clone().unwrap_or_else(|| assumed_camera(recordings, first));
+        let camera = first.camera.clone().unwrap_or_else(|| {
+            let adc_bits = recordings.iter().map(Recording::adc_bits).max().unwrap_or(16);
+            Camera::assumed(first.geometry(), adc_bits)
+        });
         let has_position = |recording: &Recording| recording.sets.iter().any(|row| row.position_m.is_some());
         let assumed =
             Assumed { camera: first.camera.is_none(), still_scene: !recordings.iter().any(has_position) };
         let geometry = first.geometry();
-        let grid = Grid::of(geometry);
-        let pixels = grid.pixels();
-        let sees_target = |&pixel: &usize| !assumed.still_scene && first.sees_target(pixel);
-        let target: Vec<bool> = pixels.iter().map(sees_target).collect();
-        let mut takes = Vec::new();
         for recording in recordings {
             if recording.geometry() != geometry || camera.geometry != geometry {
                 return Err(Problem::in_file(&recording.folder, "has another number of pixels")
                     .expected(format_args!("{} x {}", geometry.width, geometry.height)));
             }
+        }
+        let sees_target = |pixel: usize| !assumed.still_scene && first.sees_target(pixel);
+        let target: Vec<bool> = (0..geometry.pixels()).map(sees_target).collect();
+        let frames = recordings.iter().map(|recording| recording.raw.codes().len() / geometry.pixels()).sum();
+        let grid = Grid::of(geometry, frames);
+        let close = match grid.close(&target) {
+            Some(close) => Some(Self::seen(recordings, &camera, &library, assumed, &target, close)?),
+            None => None,
+        };
+        let data = Self::seen(recordings, &camera, &library, assumed, &target, grid)?;
+        Ok(Self { close: close.map(Box::new), ..data })
+    }
+
+    /// The pixels of `grid`.
+    fn seen(
+        recordings: &[Recording],
+        camera: &Camera,
+        library: &[&'static Effect],
+        assumed: Assumed,
+        target: &[bool],
+        grid: Grid,
+    ) -> Result<Self> {
+        let geometry = camera.geometry;
+        let pixels = grid.pixels();
+        let mut takes = Vec::new();
+        for recording in recordings {
             let course = if assumed.still_scene { Course::still(recording) } else { Course::of(recording)? };
             let full_scale = camera.full_scale();
             let signal = |code: u32| match code {
@@ -112,7 +121,7 @@ impl Data {
                 name: recording.name.clone(),
                 moments: course.moments(),
                 frames: course.frames(),
-                included: camera_effects(&camera, &recording.name)?,
+                included: camera_effects(camera, &recording.name)?,
                 signal_dn: recording
                     .raw
                     .codes()
@@ -125,14 +134,15 @@ impl Data {
         let union = recordings.iter().flat_map(|r| r.raw.codes()).fold(0, |union, code| union | code);
         let cut_bits = if union == 0 { 0 } else { union.trailing_zeros() };
         Ok(Self {
-            camera: grid.camera(camera.clone()),
-            described: camera,
+            camera: Camera { geometry: grid.geometry(), ..camera.clone() },
+            described: camera.clone(),
             grid,
             takes,
-            target,
+            target: pixels.iter().map(|&pixel| target[pixel]).collect(),
             cut_bits,
-            library,
+            library: library.to_vec(),
             assumed,
+            close: None,
             has_dark,
         })
     }
@@ -168,6 +178,15 @@ impl Data {
         frames
     }
 
+    /// Radial distance over axial distance of every pixel that is looked at: where it is on the whole sensor counts.
+    pub fn obliquities(&self) -> Vec<f64> {
+        let of = |&pixel: &usize| {
+            let (row, column) = self.described.geometry.row_column(pixel);
+            self.described.obliquity(row, column)
+        };
+        self.grid.pixels().iter().map(of).collect()
+    }
+
     /// The pixels that are looked at.
     pub fn geometry(&self) -> Geometry {
         self.camera.geometry
@@ -190,6 +209,12 @@ impl Data {
     pub fn with_takes(&self, takes: Vec<Take>) -> Self {
         let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
         Self { takes, has_dark, ..self.clone() }
+    }
+
+    /// The same with another mask, a pixel each.
+    #[must_use]
+    pub fn with_target(&self, target: Vec<bool>) -> Self {
+        Self { target, ..self.clone() }
     }
 
     /// The same with these sets (numbers over all recordings) left out; nothing where there are none.

@@ -23,6 +23,8 @@ pub struct Fit {
     pub sigma: Vec<f64>,
     /// Chi squared, with the sets' common position errors taken out.
     pub chi2: f64,
+    /// By how much a further step would lower it: next to nothing where the fit has come to an end.
+    pub unreached: f64,
     /// Samples.
     pub samples: usize,
     /// Variance of the encoder's reading, m².
@@ -43,7 +45,7 @@ fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
     Pixels {
         geometry,
         target: data.target.clone(),
-        obliquity: camera.obliquities(),
+        obliquity: data.obliquities(),
         background_m: vec![BACKGROUND_M; geometry.pixels()],
         phase_rad,
         amplitude_1m_dn,
@@ -123,10 +125,13 @@ fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
     }
 }
 
-/// Iterations of Gauss and Newton at most: the pixels' own numbers start close.
-const ITERATIONS: usize = 5;
+/// Iterations of Gauss and Newton at most: the pixels' own numbers start close, a response that is far from linear does not.
+const ITERATIONS: usize = 12;
 /// A step that would lower chi squared by less is none: a standard deviation of one number is 1.
 const ENOUGH: f64 = 0.1;
+/// Of a step that makes the sum of squares so many times greater, a smaller share is taken.
+const WORSE: f64 = 1.01;
+const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
 /// Fits `pieces` from their values on, with the pixels of `from` or from scratch, to the sets of which `counts` is true.
 pub fn fit(
@@ -139,14 +144,21 @@ pub fn fit(
     let mut pixels = from.map_or_else(|| start(data, counts), |fit| Arc::clone(&fit.pixels));
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
+    let mut round = Round::new(data, &pixels, &pieces, noise, counts);
     for _ in 0..ITERATIONS {
-        let round = Round::new(data, &pixels, &pieces, noise, counts);
         if round.gain < ENOUGH {
-            return round.end(pixels, pieces);
+            break;
         }
-        (pixels, pieces) = round.step(&pixels, pieces);
+        let stepped = SHARES.into_iter().find_map(|share| {
+            let (pixels, pieces) = round.step(&pixels, pieces.clone(), share);
+            let there = Round::new(data, &pixels, &pieces, noise, counts);
+            (there.square <= WORSE * round.square).then_some((pixels, pieces, there))
+        });
+        // Where not even a small step is one to the better, this is the end.
+        let Some(better) = stepped else { break };
+        (pixels, pieces, round) = better;
     }
-    Round::new(data, &pixels, &pieces, noise, counts).end(pixels, pieces)
+    round.end(pixels, pieces)
 }
 
 /// The fit without any effect.
@@ -161,7 +173,7 @@ pub fn improved(
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> (Arc<Pixels>, Vec<Piece>) {
-    Round::new(data, &fit.pixels, &fit.pieces, noise, counts).step(&fit.pixels, fit.pieces.clone())
+    Round::new(data, &fit.pixels, &fit.pieces, noise, counts).step(&fit.pixels, fit.pieces.clone(), 1.0)
 }
 
 /// The normal equations around a model, solved.
@@ -172,6 +184,8 @@ struct Round {
     sigma: Vec<f64>,
     /// By how much the step lowers chi squared.
     gain: f64,
+    /// Sum of squares of the whitened residual here.
+    square: f64,
     samples: usize,
     series: Series,
 }
@@ -190,28 +204,28 @@ impl Round {
         let projected = gram.project(None);
         let (theta, sigma) = step(&projected, &reaches(&columns, pieces));
         let gain = projected.settled + theta.dot(&projected.vector);
-        Self { columns, projected, theta, sigma, gain, samples: gram.samples, series }
+        Self { columns, projected, theta, sigma, gain, square: gram.chi2, samples: gram.samples, series }
     }
 
-    /// `pixels` and `pieces`, moved.
-    fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>) -> (Arc<Pixels>, Vec<Piece>) {
-        let pixels = Arc::new(moved(pixels, &self.projected.own(&self.theta)));
+    /// `pixels` and `pieces`, moved by this `share` of the step.
+    fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>, share: f64) -> (Arc<Pixels>, Vec<Piece>) {
+        let pixels = Arc::new(moved(pixels, &self.projected.own(&self.theta), share));
         for (column, step) in self.columns.iter().zip(self.theta.iter()) {
             let piece = &mut pieces[column.piece];
             let parameter = &piece.effect.parameters[column.parameter];
             let value = &mut piece.values[column.parameter];
             // A shape moves by a third of itself at most: its tangent holds nearby.
             let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
-            *value = (*value + step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
+            *value = (*value + share * step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
         }
         free_shapes(&mut pieces);
         (pixels, pieces)
     }
 
     fn end(self, pixels: Arc<Pixels>, pieces: Vec<Piece>) -> Fit {
-        let Self { columns, projected, sigma, samples, series, .. } = self;
+        let Self { columns, projected, sigma, gain, samples, series, .. } = self;
         let Projected { chi2, jitter_m2, .. } = projected;
-        Fit { pixels, pieces, columns, sigma, chi2, samples, jitter_m2, series }
+        Fit { pixels, pieces, columns, sigma, chi2, unreached: gain, samples, jitter_m2, series }
     }
 }
 
@@ -254,9 +268,9 @@ fn step(projected: &Projected, reach: &[f64]) -> (DVector<f64>, Vec<f64>) {
 }
 
 /// The pixels with their own numbers moved.
-fn moved(pixels: &Pixels, own: &[Vector4<f64>]) -> Pixels {
+fn moved(pixels: &Pixels, own: &[Vector4<f64>], share: f64) -> Pixels {
     let mut moved = pixels.clone();
-    for (pixel, step) in own.iter().enumerate() {
+    for (pixel, step) in own.iter().map(|step| share * step).enumerate() {
         moved.amplitude_1m_dn[pixel] += step[0];
         moved.phase_rad[pixel] += step[1];
         moved.constant_1m_dn[pixel] += step[2];

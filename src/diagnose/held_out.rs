@@ -195,3 +195,94 @@ fn weight(take: &Take, frame: usize) -> Complex64 {
         None => Complex64::from_polar(1.0, step_rad(frame)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
+    use crate::diagnose::fit::{fit, unfitted};
+    use crate::diagnose::stated_noise;
+    use crate::frames::{Geometry, RawSets};
+    use crate::physics::{Active, FREQUENCY_HZ, Stage};
+    use std::path::Path;
+    use std::sync::Arc;
+
+    const SEED: u64 = 3;
+    const HARMONICS: &str = "harmonics";
+
+    const GEOMETRY: Geometry = Geometry { width: 24, height: 18 };
+    const PIXELS: usize = GEOMETRY.width * GEOMETRY.height;
+
+    /// A set of 64 frames at each of three distances, with `effects` in so many of the upper pixels.
+    fn few_sets(effects: Vec<Active>, pixels: usize) -> Data {
+        let camera = practice_camera(GEOMETRY);
+        let sensor = sensor(&camera);
+        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: SEED };
+        let mut course = plan.course(HARMONICS).unwrap();
+        course.sets = course.sets.into_iter().step_by(4).collect();
+        let bench = Arc::new(Stage::bench().pixels(&sensor, SEED));
+        let take = |effects| {
+            let chain = &chain(&camera, Arc::clone(&bench), effects);
+            let recording = number_of(HARMONICS);
+            let simulation = Simulation { chain, sensor: &sensor, noise: true, seed: SEED, recording };
+            recorded(Path::new(""), HARMONICS, &plan, &course, &camera, &simulation, &|| ()).unwrap()
+        };
+        let (mut recording, upper) = (take(Vec::new()), take(effects));
+        let mut codes = recording.raw.codes().to_vec();
+        for (codes, upper) in codes.chunks_mut(PIXELS).zip(upper.raw.codes().chunks(PIXELS)) {
+            codes[..pixels].copy_from_slice(&upper[..pixels]);
+        }
+        recording.raw = RawSets::new(GEOMETRY, course.frames(), codes).unwrap();
+        Data::of(&[recording], Vec::new()).unwrap()
+    }
+
+    /// Odd and even frames tell the p numbers of a pixel alike. So, of its N samples, N - 2 p combinations are predicted by 0 and show their
+    /// noise; in the others, p in the odd frames and p in the even ones, either half is predicted by the other and shows the noise of both,
+    /// twice the same: 4 times a squared deviate. Chi squared has the mean N + 2 p and the variance 2 (N - 2 p) + 16 (2 p). A fit that has
+    /// seen what it predicts has the mean N - p and the variance 2 (N - p).
+    #[test]
+    fn held_frames_of_a_few_sets_are_as_far_off_as_their_noise_and_that_of_the_fit() {
+        let data = few_sets(Vec::new(), 0);
+        assert!(data.sets().len() < FOLDS * GROUP);
+        let noise = stated_noise(&data);
+        let baseline = unfitted(&data, noise);
+        let held = held_out(&data, &baseline, &baseline, noise);
+        // Amplitude, phase, ambient light, and, where the target moves, constant light.
+        let numbers = |pixel| if data.tells_constant(pixel) { 4.0 } else { 3.0 };
+        let p: f64 = (0..data.pixels()).map(numbers).sum();
+        let n = baseline.samples as f64;
+        assert_eq!(baseline.samples, 3 * 64 * data.pixels(), "all samples count");
+        let (mean, deviation) = (n + 2.0 * p, (2.0 * n + 28.0 * p).sqrt());
+        let chi2 = held.before.chi2_per_dof * n;
+        assert!((chi2 - mean).abs() < 4.0 * deviation, "{chi2}, not {mean} +- {deviation}");
+        let (seen, seen_deviation) = (n - p, (2.0 * (n - p)).sqrt());
+        assert!(mean - 4.0 * deviation > seen + 4.0 * seen_deviation, "what was seen would pass: {seen}");
+        assert_eq!((held.sets, held.z), (3, 0.0));
+    }
+
+    /// An effect in the upper half alone is not known from the lower half, where it is taken to be then: residuals are those of the effect
+    /// left out of the whole image, but for its sign in the lower half. Chi squared differs by 4 times the sum over the lower half of noise
+    /// times effect, each over the noise's deviation: the root of the effect's chi squared is the standard deviation of that sum.
+    /// Parameters of the half itself would leave nothing of the effect, those of the whole image a quarter.
+    #[test]
+    fn a_half_of_the_image_is_predicted_with_the_parameters_of_the_other() {
+        let scale = injection("phase_step_scale:relative=0.02").unwrap();
+        let effect = scale.effect;
+        let [clean, everywhere, upper] =
+            [0, PIXELS, PIXELS / 2].map(|pixels| few_sets(vec![scale.clone()], pixels));
+        let noise = stated_noise(&clean);
+        let chi2 = |agreement: Agreement| agreement.chi2_per_dof * (3 * 64 * PIXELS) as f64;
+        let left_out = |data: &Data| {
+            let baseline = unfitted(data, noise);
+            chi2(held_out(data, &baseline, &baseline, noise).before)
+        };
+        let whole = left_out(&everywhere) - left_out(&clean);
+        let baseline = unfitted(&upper, noise);
+        let piece = Piece { effect, values: effect.off(), free: vec![0], takes: vec![0], finite: false };
+        let after = fit(&upper, Some(&baseline), vec![piece], noise, &|_| true);
+        let both = chi2(held_out(&upper, &baseline, &after, noise).after) - left_out(&clean);
+        let deviation = 4.0 * (whole / 2.0).sqrt();
+        assert!(whole - 4.0 * deviation > whole / 2.0, "a quarter would not be told from {whole}");
+        assert!((both - whole).abs() < 4.0 * deviation, "{both}, not {whole} +- {deviation}");
+    }
+}

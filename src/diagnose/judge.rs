@@ -4,7 +4,7 @@ use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
-use super::location::{Location, locate};
+use super::location::{Located, Location, locate};
 use super::pieces::{Piece, tolerance};
 use super::search::{Found, Named, search};
 use crate::physics::effects;
@@ -108,10 +108,21 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         let excess = excess.filter(|excess| excess.mode == 1)?;
         Some(("excess_noise", excess))
     });
-    let is_left = |place: &&Place| random.is_none() || !place.is_random;
+    let is_left = |place: &&Place| {
+        random.as_ref().is_none_or(|(_, cluster)| {
+            !place.is_random && deflated(cluster, place.ln_bayes, place.chi2.0) > LOCATED_NATS
+        })
+    };
     let rest = |place: &Place| place.chi2.0 - place.chi2.1 as f64;
     let rest: f64 = left.iter().filter(is_left).map(rest).fold(0.0, f64::max);
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
+    // One coordinate that says more than several effects together is the simpler answer, whatever makes it.
+    let mut evidences: Vec<f64> = found.named.iter().map(|named| named.ln_bayes).collect();
+    // Of two that were found together it is that of both.
+    evidences.dedup();
+    let together: f64 = evidences.iter().sum();
+    let simpler =
+        found.named.len() > 1 && baseline.columns.first().is_some_and(|best| best.ln_bayes > together);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
     if let Some((name, cluster)) = random {
@@ -119,11 +130,16 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         let score = (2.0 * cluster.ln_bayes, 1);
         named.push(Named { name, ln_bayes: cluster.ln_bayes, score, rivals: Vec::new() });
     }
-    let verdict = if rest == 0.0 || !named.is_empty() && remainder < believed {
+    // A simulation of which nothing is described leaves out several things at once: what explains most of them is worth its name.
+    let most_left = if data.assumed.camera { 0.5 } else { 0.1 };
+    let verdict = if simpler {
+        named.clear();
+        Verdict::Unexplained
+    } else if rest == 0.0 || !named.is_empty() && remainder < believed {
         if named.is_empty() { Verdict::Clean } else { Verdict::Explained }
-    } else if random.is_some() && found.named.is_empty() {
+    } else if random.is_some() && named.len() == 1 {
         Verdict::Explained
-    } else if named.is_empty() || remainder > 0.5 || named.len() == 1 && remainder > 0.1 || dropped {
+    } else if named.is_empty() || remainder > 0.5 || named.len() == 1 && remainder > most_left || dropped {
         named.clear();
         Verdict::Unexplained
     } else {
@@ -197,10 +213,17 @@ fn real<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
     location.clusters.iter().filter(|cluster| cluster.ln_bayes > least && !is_usual(cluster)).collect()
 }
 
+/// Evidence of columns that explain `chi2`, beside random errors: these make more of columns than noise does, by as much as they raise the
+/// variance.
+fn deflated(cluster: &Cluster, ln_bayes: f64, chi2: f64) -> f64 {
+    ln_bayes - 0.5 * chi2 * (1.0 - 1.0 / cluster.inflation)
+}
+
 /// A random effect of the registry, if the strongest cluster is what it makes, and nothing orders it.
 fn random_effect(data: &Data, location: &Location) -> Option<(&'static str, Cluster)> {
     let cluster = *real(data, location).first()?;
-    let ordered = location.columns.first().map_or(0.0, |columns| columns.ln_bayes);
+    let ordered = |located: &Located| deflated(&cluster, located.ln_bayes, located.chi2.0);
+    let ordered = location.columns.iter().map(ordered).fold(0.0, f64::max);
     if ordered > 0.02 * cluster.ln_bayes + LOCATED_NATS {
         return None;
     }

@@ -147,30 +147,63 @@ fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -
     }
     let step = 1.0 / (FINENESS * longest);
     let count = ((high - low) / step).ceil() as usize;
-    let power = |number: usize| -> f64 {
-        let frequency = low + number as f64 * step;
-        let turns = frequency * period;
-        if period > 0.0 && (turns - turns.round()).abs() < DRIFT_CYCLES / longest * period {
-            return 0.0;
-        }
-        groups.iter().map(|group| power(group, frequency)).sum()
+    let is_drift = |number: usize| {
+        let turns = (low + number as f64 * step) * period;
+        period > 0.0 && (turns - turns.round()).abs() < DRIFT_CYCLES / longest * period
     };
-    let powers: Vec<f64> = (0..count).into_par_iter().map(power).collect();
+    let starts: Vec<usize> = (0..count).step_by(TOGETHER).collect();
+    let powers = starts.into_par_iter().flat_map_iter(|start| {
+        let numbers = start..(start + TOGETHER).min(count);
+        let mut powers = vec![0.0; numbers.len()];
+        for group in groups {
+            add_powers(group, low + start as f64 * step, step, &mut powers);
+        }
+        powers.into_iter().zip(numbers).map(|(power, number)| if is_drift(number) { 0.0 } else { power })
+    });
+    let powers: Vec<f64> = powers.collect();
     let best = (0..count).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
     Some(Line { frequency: low + best as f64 * step, chi2: powers[best], looked: count as f64 })
 }
 
-fn power(group: &[(f64, Sum)], frequency: f64) -> f64 {
-    let (mut c, mut s, mut cc, mut ss, mut cs) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for &(at, (score, information)) in group {
-        let turns = at * frequency;
-        let (cosine, sine) = cos_sin(TAU * (turns - turns.floor()));
-        c += score * cosine;
-        s += score * sine;
-        cc += information * cosine * cosine;
-        ss += information * sine * sine;
-        cs += information * cosine * sine;
+/// Neighbouring frequencies that are looked at together: each sample's phase is turned from one to the next.
+const TOGETHER: usize = 64;
+
+/// A sample, and its phase at a frequency.
+struct Turning {
+    score: f64,
+    information: f64,
+    cosine: f64,
+    sine: f64,
+    /// By what it turns to the next frequency.
+    turn: (f64, f64),
+}
+
+/// Adds the powers at `frequency` and at those after it, each `step` above the last.
+fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, powers: &mut [f64]) {
+    let angle = |turns: f64| cos_sin(TAU * (turns - turns.floor()));
+    let turning = |&(at, (score, information)): &(f64, Sum)| {
+        let (cosine, sine) = angle(at * frequency);
+        Turning { score, information, cosine, sine, turn: angle(at * step) }
+    };
+    let mut samples: Vec<Turning> = group.iter().map(turning).collect();
+    for power in powers {
+        let (mut c, mut s, mut cc, mut ss, mut cs) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for sample in &mut samples {
+            let Turning { score, information, cosine, sine, turn } = *sample;
+            c += score * cosine;
+            s += score * sine;
+            cc += information * cosine * cosine;
+            ss += information * sine * sine;
+            cs += information * cosine * sine;
+            sample.cosine = cosine * turn.0 - sine * turn.1;
+            sample.sine = sine * turn.0 + cosine * turn.1;
+        }
+        *power += explained(c, s, cc, ss, cs);
     }
+}
+
+/// Chi squared that a line explains, by the sums of its scores and their information.
+fn explained(c: f64, s: f64, cc: f64, ss: f64, cs: f64) -> f64 {
     let total = cc + ss;
     if total <= 0.0 {
         return 0.0;

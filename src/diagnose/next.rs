@@ -1,7 +1,8 @@
 //! The recording that would tell apart what these recordings do not.
 //!
-//! Each proposal is simulated at the fitted pixels, added to the campaign, and judged by what then separates the asserted effect from its
-//! rival: D = ½ θ' (K_cc − K_cr K_rr⁻¹ K_rc) θ, with K the information of both effects' parameters; √(2 D) standard deviations.
+//! Each proposal is a recorded one that would be taken otherwise. It is simulated at the fitted pixels, and judged together with the one that
+//! it changes, without the rest of the campaign, by what separates the asserted effect from its rival:
+//! D = ½ θ' (K_cc − K_cr K_rr⁻¹ K_rc) θ, with K the information of both effects' parameters; √(2 D) standard deviations.
 
 use super::columns::Tangents;
 use super::data::{Data, Take};
@@ -53,7 +54,7 @@ pub struct Next {
     pub between: [String; 2],
     /// The recording.
     pub what: String,
-    /// By how many standard deviations it would separate them.
+    /// By how many standard deviations it would separate them, together with the recording that it changes.
     pub rho: f64,
 }
 
@@ -89,7 +90,7 @@ pub fn next(data: &Data, judgement: &Judgement) -> Vec<Next> {
 /// Longer recordings are not proposed again.
 const MOST_FRAMES: usize = 600;
 
-/// By how many standard deviations `own` and `rival` differ with the proposed recording alone.
+/// By how many standard deviations `own` and `rival` differ in recording `take` and the proposed change of it, without the others.
 fn separation(
     data: &Data,
     judgement: &Judgement,

@@ -62,16 +62,20 @@ const GROUPINGS: [(&str, &[Grouping]); 7] = [
 /// Effects that start with a corner, and the values at which they are tried.
 const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8])];
 
+/// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
+const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
+
 /// How exactly the forms of effects are known: so much of what they explain may be left.
 const APPROXIMATE: f64 = 0.04;
 const LOOSE: f64 = 0.08;
 const EXACT: f64 = 0.01;
-const TOLERANCES: [(&str, f64); 17] = [
+const TOLERANCES: [(&str, f64); 18] = [
     ("multipath_interference", APPROXIMATE),
     ("ambient_drift", APPROXIMATE),
     ("ambient_flicker", APPROXIMATE),
     ("illumination_droop", APPROXIMATE),
     ("illumination_drift", APPROXIMATE),
+    ("response_decay", APPROXIMATE),
     ("phase_drift", APPROXIMATE),
     ("demodulation_skew", APPROXIMATE),
     ("intensity_nonlinearity", APPROXIMATE),
@@ -99,7 +103,7 @@ const LINES: [(&str, LineShape); 2] = [
 ];
 
 /// Effects that a pixel's neighbours make: they cannot be seen where those are not looked at.
-const OF_NEIGHBOURS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lateral_motion"];
+pub const OF_NEIGHBOURS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lateral_motion"];
 
 /// All candidates that `data` could need: those of the registry that its camera does not include.
 pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
@@ -112,7 +116,8 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         .chain(&data.library)
         .copied()
         .filter(|effect| {
-            let is_seen = data.grid.every == 1 || !OF_NEIGHBOURS.contains(&effect.name);
+            let is_seen = (data.grid.every == 1 || !OF_NEIGHBOURS.contains(&effect.name))
+                && (data.assumed.still_scene || !OF_STILL_SCENES.contains(&effect.name));
             effect.chance == Chance::None
                 && effect.name != effects::FIXED_POINT
                 && is_seen
@@ -142,6 +147,11 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let shapes: &[f64] = shape.map_or(&[0.0], |shape| effect.parameters[shape].shapes);
     let groupings = GROUPINGS.iter().find(|(name, _)| *name == effect.name);
     let groupings = groupings.map_or(&[Grouping::All][..], |(_, groupings)| groupings);
+    let strengths = |instead: bool| -> Vec<usize> {
+        let all = effect.parameters.iter().enumerate();
+        all.filter(|(_, p)| !p.is_shape() && p.is_instead == instead).map(|(number, _)| number).collect()
+    };
+    let (strengths, instead) = (strengths(false), strengths(true));
     let mut variants = Vec::new();
     for &value in found.unwrap_or(shapes) {
         let mut values = effect.off();
@@ -151,12 +161,22 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         // A phase shifter that has settings of its own has the same in all recordings.
         let is_shared = shape.is_some_and(|shape| effect.parameters[shape].is_choice) && value > 0.0;
         let groupings = if is_shared { &[Grouping::All][..] } else { groupings };
-        variants.extend(groupings.iter().map(|&by| Variant { pieces: pieces(effect, &values, by, data) }));
+        let strengths = if is_shared { &strengths[..value as usize] } else { &strengths[..] };
+        for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
+            let of = |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data) };
+            variants.extend(groupings.iter().map(of));
+        }
     }
     variants
 }
 
-fn pieces(effect: &'static Effect, values: &[f64], by: Grouping, data: &Data) -> Vec<Piece> {
+fn pieces(
+    effect: &'static Effect,
+    values: &[f64],
+    strengths: &[usize],
+    by: Grouping,
+    data: &Data,
+) -> Vec<Piece> {
     let all: Vec<usize> = (0..data.takes.len()).collect();
     let groups: Vec<Vec<usize>> = match by {
         Grouping::All => vec![all],
@@ -168,8 +188,6 @@ fn pieces(effect: &'static Effect, values: &[f64], by: Grouping, data: &Data) ->
             data.schemes().into_iter().map(of).collect()
         }
     };
-    let strengths = effect.parameters.iter().enumerate().filter(|(_, parameter)| !parameter.is_shape());
-    let strengths: Vec<usize> = strengths.map(|(number, _)| number).collect();
     groups
         .into_iter()
         .map(|takes| {

@@ -16,6 +16,13 @@ const CLEAR_NATS: f64 = 8.0;
 /// It explains at least this share of that.
 const TRUSTED_SHARE: f64 = 0.03;
 const MOST_EFFECTS: usize = 4;
+/// Where the tangents need not hold, effects whose score is at least this share of the best one's are fitted before one is chosen.
+const LEADING_SHARE: f64 = 0.8;
+const MOST_LEADERS: usize = 5;
+/// Without a camera's description much is left out at once: so much of what their forms may leave keeps further effects out.
+const UNDESCRIBED: f64 = 0.1;
+/// An effect without which chi squared, halved, rises by less than this and one more for each of its numbers was not needed.
+const NEEDED_NATS: f64 = 6.0;
 /// Beyond so much evidence (nats) the tangents at the baseline need not hold at the fit.
 const STRONG_NATS: f64 = 30.0;
 
@@ -143,10 +150,11 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
     let mut current = baseline.clone();
     let mut named: Vec<Named> = Vec::new();
     let mut first: Option<Pass> = None;
+    let share = if data.assumed.camera { UNDESCRIBED } else { 1.0 };
     loop {
         let candidates = candidates(data, &current.series);
         let pass = pass(data, &current, &candidates, noise, None);
-        let next = pass.next(&named, trust);
+        let next = pass.next(share * tolerated(&named), trust);
         first.get_or_insert_with(|| {
             alone = pass.alone(&candidates);
             pass.clone()
@@ -155,11 +163,44 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
         if best.blocks.len() + named.len() > MOST_EFFECTS {
             break;
         }
-        let rivals = pass.rivals(&whole, &candidates);
-        let mut pieces = current.pieces.clone();
+        let mut rivals = pass.rivals(&whole, &candidates);
+        let with = |blocks: &[usize]| {
+            let more = blocks.iter().map(|&block| &pass.blocks[block]);
+            let more = more.flat_map(|b| candidates[b.candidate].variants[b.variant].pieces.iter().cloned());
+            let pieces = current.pieces.iter().cloned().chain(more).collect();
+            fit(data, Some(&current), pieces, noise, &|_| true)
+        };
+        // Of a pair, the strongest member is the one that fits best beside the other.
+        let leaders = if whole.blocks.len() > 1 { Vec::new() } else { pass.leaders(&best) };
+        let (best, fitted) = match leaders[..] {
+            [] | [_] => {
+                let fitted = with(&best.blocks);
+                (best, fitted)
+            }
+            ref leaders => {
+                let fitted = |&block: &usize| {
+                    let fit = with(&[block]);
+                    let score = pass.scores[block].map_or(0.0, |(chi2, _)| chi2);
+                    let gain = current.chi2 - fit.chi2 - fit.unreached;
+                    (Model { blocks: vec![block], ln_bayes: pass.singles[block] + 0.5 * (gain - score) }, fit)
+                };
+                let mut fits: Vec<(Model, Fit)> = leaders.iter().map(fitted).collect();
+                fits.sort_by(|a, b| b.0.ln_bayes.total_cmp(&a.0.ln_bayes));
+                let others = fits.split_off(1);
+                let Some((model, fit)) = fits.pop() else { break };
+                let name = |model: &Model| candidates[pass.blocks[model.blocks[0]].candidate].effect.name;
+                // What its form may leave does not tell it from others either.
+                let form = 0.5 * tolerance(name(&model)) * (current.chi2 - fit.chi2);
+                let least = model.ln_bayes - form.max(RIVAL_NATS);
+                let near = others.iter().filter(|other| other.0.ln_bayes > least).map(|other| name(&other.0));
+                rivals.extend(near.map(str::to_owned));
+                rivals.retain(|rival| *rival != name(&model));
+                rivals.dedup();
+                (model, fit)
+            }
+        };
         for &block in &best.blocks {
             let block_of = &pass.blocks[block];
-            pieces.extend(candidates[block_of.candidate].variants[block_of.variant].pieces.iter().cloned());
             named.push(Named {
                 name: candidates[block_of.candidate].effect.name,
                 ln_bayes: best.ln_bayes,
@@ -167,20 +208,54 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
                 rivals: rivals.clone(),
             });
         }
-        current = fit(data, Some(&current), pieces, noise, &|_| true);
+        current = fitted;
     }
+    drop_needless(data, noise, &mut current, &mut named);
     let first = first.unwrap_or_default();
     Found { baseline, fit: current, named, invisible: first.invisible, detectable: first.detectable, alone }
 }
 
+/// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.
+fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<Named>) {
+    while named.len() > 1 {
+        let without = |number: usize| {
+            let name = named[number].name;
+            let pieces: Vec<Piece> =
+                current.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
+            let left = fit(data, Some(current), pieces, noise, &|_| true);
+            let needed = 0.5 * (left.chi2 + left.unreached - current.chi2) - named[number].score.1 as f64;
+            (number, needed, left)
+        };
+        // Of two that are needed as little, the later one.
+        let least = (0..named.len()).rev().map(without).min_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((number, _, left)) = least.filter(|least| least.1 < NEEDED_NATS) else { return };
+        *current = left;
+        named.remove(number);
+    }
+}
+
 impl Pass {
-    /// The model to be fitted next, beside those that are named; and, where that is only a part of the best one, the whole.
-    fn next(&self, named: &[Named], trust: bool) -> Option<(Model, Model)> {
+    /// Blocks that may be the best one when they are fitted; none but `best` where that is a pair, or its tangents hold.
+    fn leaders(&self, best: &Model) -> Vec<usize> {
+        let score = |block: usize| self.scores[block].map_or(0.0, |(chi2, _)| chi2);
+        let [block] = best.blocks[..] else { return Vec::new() };
+        if self.singles[block] < STRONG_NATS {
+            return vec![block];
+        }
+        let enough = LEADING_SHARE * score(block);
+        let mut leaders: Vec<usize> =
+            (0..self.blocks.len()).filter(|&block| score(block) >= enough).collect();
+        leaders.sort_by(|&a, &b| self.singles[b].total_cmp(&self.singles[a]));
+        leaders.truncate(MOST_LEADERS);
+        leaders
+    }
+
+    /// The model to be fitted next, if it explains more than what is `tolerated`; and, where that is only a part of the best one, the whole.
+    fn next(&self, tolerated: f64, trust: bool) -> Option<(Model, Model)> {
         let explained =
             |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
         let enough = |model: &&Model| {
             let most = model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max);
-            let tolerated = tolerated(named);
             let trusted = trust && model.ln_bayes > CLEAR_NATS && most > TRUSTED_SHARE * tolerated;
             model.ln_bayes > THRESHOLD && (most > tolerated || trusted)
         };

@@ -10,13 +10,13 @@ use nalgebra::{DMatrix, DVector};
 /// A pixel sees what the mask does not say where chi squared is less by so much, and by this share.
 const MUCH_BETTER: (f64, f64) = (100.0, 0.02);
 
-/// `data` with the mask that its pixels show, and how many differ from the one that was recorded.
+/// `data` with the mask that its pixels show, and how many differ from the one that was recorded; nothing where none does.
 ///
 /// Each pixel is fitted once as if it saw the moving target, and once as if it saw a background that stands still.
-pub fn with_mask(data: &Data, noise: Noise) -> (Data, usize) {
+pub fn with_mask(data: &Data, noise: Noise) -> Option<(Data, usize)> {
     let count = data.pixels();
     let mut normal = vec![[Normal::new(), Normal::new()]; count];
-    let obliquity = data.camera.obliquities();
+    let obliquity = data.obliquities();
     for take in &data.takes {
         for (index, moment) in take.moments.iter().enumerate().filter(|(_, moment)| moment.lit) {
             let position_m = moment.commanded_m();
@@ -35,18 +35,16 @@ pub fn with_mask(data: &Data, noise: Noise) -> (Data, usize) {
             }
         }
     }
-    let mut settled = data.clone();
-    let mut moved = 0;
-    for (pixel, [target, background]) in normal.iter().enumerate() {
+    let is_other = |(&is_target, [target, background]): (&bool, &[Normal; 2])| {
         let (target, background) = (target.chi2(), background.chi2());
-        let (by_mask, other) = if data.target[pixel] { (target, background) } else { (background, target) };
+        let (by_mask, other) = if is_target { (target, background) } else { (background, target) };
         let better = by_mask.zip(other).map_or(0.0, |(by_mask, other)| by_mask - other);
-        if better > MUCH_BETTER.0 + MUCH_BETTER.1 * by_mask.unwrap_or(0.0) {
-            settled.target[pixel] = !data.target[pixel];
-            moved += 1;
-        }
-    }
-    (settled, moved)
+        better > MUCH_BETTER.0 + MUCH_BETTER.1 * by_mask.unwrap_or(0.0)
+    };
+    let others: Vec<bool> = data.target.iter().zip(&normal).map(is_other).collect();
+    let moved = others.iter().filter(|other| **other).count();
+    let shown = || data.target.iter().zip(&others).map(|(target, other)| target ^ other).collect();
+    (moved > 0).then(|| (data.with_target(shown()), moved))
 }
 
 /// Normal equations of four numbers.

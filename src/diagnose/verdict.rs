@@ -7,10 +7,11 @@ use super::held_out::{HeldOut, held_out};
 use super::judge::{Judgement, Place, Verdict, judge};
 use super::next::next;
 use super::noise::measured;
-use super::pieces::Piece;
+use super::pieces::{OF_NEIGHBOURS, Piece};
 use super::search::Named;
 use super::settle::{outlying, with_mask};
 use super::stated_noise;
+use crate::frames::Geometry;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -23,6 +24,8 @@ pub struct Diagnosis {
     pub held_out: HeldOut,
     /// The answer.
     pub answer: Answer,
+    /// The pixels that were looked at, as a sensor of their own.
+    pub geometry: Geometry,
 }
 
 /// The answer, in the order of its file.
@@ -141,26 +144,34 @@ pub struct Smallest {
 /// What the recordings themselves say of mask and sets comes first: pixels that see something else than the mask has, and sets that
 /// are unlike their neighbours.
 pub fn diagnose(data: &Data) -> Diagnosis {
+    let diagnosis = diagnose_pixels(data);
+    let is_explained = matches!(diagnosis.judgement.verdict, Verdict::Clean | Verdict::Explained);
+    let Some(close) = data.close.as_deref().filter(|_| !is_explained) else { return diagnosis };
+    // What a pixel's neighbours make is no candidate where there are gaps between them.
+    let near = diagnose_pixels(close);
+    let is_of_neighbours = |named: &Named| OF_NEIGHBOURS.contains(&named.name);
+    if near.judgement.named.iter().any(is_of_neighbours) { near } else { diagnosis }
+}
+
+fn diagnose_pixels(data: &Data) -> Diagnosis {
     let noise = noise_of(data);
     // A scene that stands still has no mask.
-    let (data, moved) = if data.assumed.still_scene { (data.clone(), 0) } else { with_mask(data, noise) };
-    let baseline = unfitted(&data, noise);
+    let masked = if data.assumed.still_scene { None } else { with_mask(data, noise) };
+    let (data, moved) = masked.as_ref().map_or((data, 0), |(data, moved)| (data, *moved));
+    let baseline = unfitted(data, noise);
     let outlying = outlying(&baseline.series);
     let left_out = outlying.len();
-    let (data, baseline) = match data.without(&outlying) {
-        Some(data) => {
-            let baseline = unfitted(&data, noise);
-            (data, baseline)
-        }
+    let fewer = data.without(&outlying);
+    let (data, baseline) = match &fewer {
+        Some(fewer) => (fewer, unfitted(fewer, noise)),
         None => (data, baseline),
     };
-    let data = &data;
     let judgement = judge(data, baseline, noise);
     let held_out = held_out(data, &judgement.found.baseline, &judgement.fit, judgement.noise);
     let mut answer = answer(data, &judgement, &held_out);
     answer.provenance["sets_left_out"] = json!(left_out);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
-    Diagnosis { judgement, held_out, answer }
+    Diagnosis { judgement, held_out, answer, geometry: data.geometry() }
 }
 
 /// The noise that the camera's description gives, or, without one, what the recordings show.

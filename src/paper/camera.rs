@@ -143,7 +143,7 @@ impl Camera {
             edge_counts: vec![0.0],
         };
         let included = Included { axial_motion: true, inverse_square_falloff: falloff };
-        Self(Chain { pixels: Arc::new(pixels), correlation, included, effects })
+        Self(Chain::new(Arc::new(pixels), correlation, included, effects))
     }
 
     /// A set's frames at the steps `steps_rad`, DN above the pedestal, without noise.

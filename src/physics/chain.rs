@@ -16,8 +16,8 @@ pub struct Chain {
     pub correlation: Correlation,
     /// What the baseline takes into account of a target that moves.
     pub included: Included,
-    /// Effects, in any order: they act where they belong, and in the registry's order where they share a place.
-    pub effects: Vec<Active>,
+    /// What acts, in the order in which it does.
+    effects: Vec<Active>,
 }
 
 /// What a frame needs to know of others.
@@ -25,7 +25,7 @@ pub struct Chain {
 pub struct Memory {
     /// What light brought to the pixels in the frame before, DN.
     pub before_dn: Option<Arc<Vec<f64>>>,
-    /// Draws from the standard normal distribution for this frame, one for each of [`Chain::effects`]; where there are none, 0.
+    /// Draws from the standard normal distribution for this frame, one for each of [`Chain::effects`], in its order; where there are none, 0.
     pub deviates: Vec<f64>,
     /// Draws for its pixels; empty where no effect needs any.
     pub pixel_deviates: Vec<f64>,
@@ -34,6 +34,25 @@ pub struct Memory {
 }
 
 impl Chain {
+    /// With `effects` in any order: they act where they belong, in the registry's order where they share a place, whoever named them
+    /// first; those that are in none, a user's formulas, come last there.
+    pub fn new(
+        pixels: Arc<Pixels>,
+        correlation: Correlation,
+        included: Included,
+        mut effects: Vec<Active>,
+    ) -> Self {
+        let number = |effect| effects::EFFECTS.iter().position(|known| std::ptr::eq(*known, effect));
+        effects
+            .sort_by_cached_key(|active| (active.effect.place, number(active.effect).unwrap_or(usize::MAX)));
+        Self { pixels, correlation, included, effects }
+    }
+
+    /// What acts, in the order in which it does, which is that of [`Memory::deviates`].
+    pub fn effects(&self) -> &[Active] {
+        &self.effects
+    }
+
     /// The frame at `moment`, before noise and converter; [`Exposure::arrived_dn`] is what the next frame's memory is made of.
     pub fn expose(&self, moment: Moment, memory: Memory) -> Exposure {
         let mut exposure = self.begin(moment, memory);
@@ -94,18 +113,6 @@ impl Chain {
         self.run_between(exposure, first, Place::Readout);
     }
 
-    /// The effects of `place` with their numbers, in the registry's order, whoever named them first; those that are in none, a user's
-    /// formulas, come last.
-    fn acting_at(&self, place: Place) -> Vec<(usize, &Active)> {
-        let here = self.effects.iter().enumerate().filter(|(_, active)| active.effect.place == place);
-        let mut here: Vec<(usize, &Active)> = here.collect();
-        if here.len() > 1 {
-            let known = |effect| effects::EFFECTS.iter().position(|known| std::ptr::eq(*known, effect));
-            here.sort_by_key(|(_, active)| known(active.effect).unwrap_or(usize::MAX));
-        }
-        here
-    }
-
     fn run_between(&self, exposure: &mut Exposure, first: Place, last: Place) {
         for place in Place::ALL.into_iter().filter(|place| (first..=last).contains(place)) {
             match place {
@@ -115,7 +122,8 @@ impl Chain {
                 Place::Correlation => exposure.correlate(),
                 Place::Charge => exposure.arrived_dn = Arc::new(exposure.signal_dn.clone()),
             }
-            for (number, Active { effect, values }) in self.acting_at(place) {
+            let acting = self.effects.iter().enumerate().filter(|(_, active)| active.effect.place == place);
+            for (number, Active { effect, values }) in acting {
                 exposure.deviate = exposure.deviates.get(number).copied().unwrap_or(0.0);
                 effect.act_on(values, exposure);
             }

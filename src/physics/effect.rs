@@ -20,6 +20,8 @@ pub struct Parameter {
     pub shapes: &'static [f64],
     /// A shape that takes no values between those.
     pub is_choice: bool,
+    /// A strength that says in another way what the others say: off as a rule, and fitted in their place.
+    pub is_instead: bool,
 }
 
 impl Parameter {
@@ -31,7 +33,13 @@ impl Parameter {
         bounds: (f64, f64),
         typical: f64,
     ) -> Self {
-        Self { name, unit, off, bounds, typical, shapes: &[], is_choice: false }
+        Self { name, unit, off, bounds, typical, shapes: &[], is_choice: false, is_instead: false }
+    }
+
+    /// The same in place of the other strengths.
+    #[must_use]
+    pub const fn instead(self) -> Self {
+        Self { is_instead: true, ..self }
     }
 
     /// A shape: it matters only where a strength is not off.
@@ -42,7 +50,7 @@ impl Parameter {
         bounds: (f64, f64),
         shapes: &'static [f64],
     ) -> Self {
-        Self { name, unit, off: usual, bounds, typical: usual, shapes, is_choice: false }
+        Self { name, unit, off: usual, bounds, typical: usual, shapes, is_choice: false, is_instead: false }
     }
 
     /// A shape that is one of `shapes`, the first of them as a rule.
@@ -108,6 +116,15 @@ pub enum Chance {
     Pixel,
 }
 
+/// What values of an effect's parameters do to a frame that has come to [`Effect::place`].
+#[derive(Debug)]
+pub enum Act {
+    /// What the effect's file says.
+    Code(fn(&[f64], &mut Exposure)),
+    /// What a user's formula says.
+    Formula(Box<Formula>),
+}
+
 /// A physical effect. One file each in `effects/`, one line in [`super::EFFECTS`].
 #[derive(Debug)]
 pub struct Effect {
@@ -125,18 +142,16 @@ pub struct Effect {
     pub chance: Chance,
     /// Whether it needs [`Exposure::before_dn`], the light of the frame before.
     pub looks_back: bool,
-    /// The forward model: what these values of the parameters do to a frame that has come to [`Effect::place`].
-    pub act: fn(&[f64], &mut Exposure),
-    /// What acts instead, of an effect that a user gives as a formula.
-    pub formula: Option<Formula>,
+    /// The forward model.
+    pub act: Act,
 }
 
 impl Effect {
     /// Does to `exposure` what these values of the parameters do.
     pub fn act_on(&self, values: &[f64], exposure: &mut Exposure) {
-        match &self.formula {
-            Some(formula) => formula.act(values, exposure),
-            None => (self.act)(values, exposure),
+        match &self.act {
+            Act::Code(act) => act(values, exposure),
+            Act::Formula(formula) => formula.act(values, exposure),
         }
     }
 
@@ -148,7 +163,11 @@ impl Effect {
     /// The values of its usual size, within its bounds.
     pub fn typical(&self) -> Vec<f64> {
         let value = |p: &Parameter| {
-            if p.is_shape() { p.off } else { (p.off + p.typical).clamp(p.bounds.0, p.bounds.1) }
+            if p.is_shape() || p.is_instead {
+                p.off
+            } else {
+                (p.off + p.typical).clamp(p.bounds.0, p.bounds.1)
+            }
         };
         self.parameters.iter().map(value).collect()
     }
@@ -159,7 +178,7 @@ impl Effect {
         const SIGNS: [f64; 4] = [1.0, -1.0, -1.0, 1.0];
         let value = |(number, p): (usize, &Parameter)| {
             let signed = p.off + SIGNS[number % SIGNS.len()] * p.typical;
-            if p.is_shape() { p.off } else { signed.clamp(p.bounds.0, p.bounds.1) }
+            if p.is_shape() || p.is_instead { p.off } else { signed.clamp(p.bounds.0, p.bounds.1) }
         };
         self.parameters.iter().enumerate().map(value).collect()
     }

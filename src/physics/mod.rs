@@ -27,7 +27,7 @@ mod trig;
 pub use chain::{Chain, Memory};
 pub use correlation::{Correlation, FREQUENCY_HZ, Harmonic};
 pub use draws::Draws;
-pub use effect::{Active, Chance, Effect, Parameter, Place};
+pub use effect::{Act, Active, Chance, Effect, Parameter, Place};
 pub use effects::EFFECTS;
 pub use exposure::{Exposure, Included, Moment};
 pub use formula::{Formula, Target};

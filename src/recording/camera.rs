@@ -45,6 +45,23 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// What is taken for a camera of which no more is known: no pedestal, rays that are parallel, a correlation without harmonics, and
+    /// all of [`BASELINE`] included.
+    pub fn assumed(geometry: Geometry, adc_bits: u32) -> Self {
+        Self {
+            geometry,
+            adc_bits,
+            pedestal_dn: 0.0,
+            gain_e_per_dn: 1.0,
+            read_noise_e: 1.0,
+            focal_length_px: 1e9,
+            correlation_amplitude: vec![1.0],
+            correlation_phase_rad: vec![0.0],
+            included_physics: BASELINE.map(|(_, included)| included.to_owned()).to_vec(),
+            effects: Vec::new(),
+        }
+    }
+
     /// The camera of the recording in `folder` and the file that describes it: the folder's own, else its campaign's.
     pub(super) fn of_recording(folder: &Path) -> Result<Option<(Self, PathBuf)>> {
         // `..` and `.` have no parent by name.
@@ -76,21 +93,19 @@ impl Camera {
         let table = fields::parse(file, text)?;
         let top = Fields::top(file, &table);
         let sensor = top.section("sensor")?;
-        let (correlation_amplitude, correlation_phase_rad) = match top.optional_section("correlation")? {
-            Some(correlation) => waveform(file, &correlation)?,
-            // What is not in the file is not in the simulation: a correlation without harmonics.
-            None => (vec![1.0], vec![0.0]),
-        };
+        let correlation = top.optional_section("correlation")?;
+        let correlation = correlation.map(|correlation| waveform(file, &correlation)).transpose()?;
         let effects = match top.optional_section("physics")? {
             Some(physics) if physics.has("effects") => physics.texts("effects")?,
             _ => Vec::new(),
         };
-        let included_physics = match top.optional_section("physics")? {
-            None => vec![AXIAL_MOTION, INVERSE_SQUARE_FALLOFF],
-            Some(physics) if physics.has("included") => physics.texts("included")?,
+        let included = match top.optional_section("physics")? {
+            None => None,
+            Some(physics) if physics.has("included") => Some(physics.texts("included")?),
             Some(physics) => return Err(physics.refuse("included", "a list of strings, [] for no effect")),
         };
-        check_physics(file, &included_physics, &effects)?;
+        // Without the section there are no effects either.
+        check_physics(file, included.as_deref().unwrap_or_default(), &effects)?;
         let adc_bits = sensor.integer("adc_bits", 8..=16)? as u32;
         let pedestal_dn = sensor.number("pedestal_dn", 0.0..=65_535.0, "DN")?;
         let full_scale = full_scale(adc_bits);
@@ -102,21 +117,25 @@ impl Camera {
                 )
                 .remedy("give the code at no light in codes of this converter, or correct sensor.adc_bits"));
         }
-        Ok(Self {
-            geometry: Geometry {
-                width: sensor.integer("width", 1..=65_536)? as usize,
-                height: sensor.integer("height", 1..=65_536)? as usize,
-            },
-            adc_bits,
+        let geometry = Geometry {
+            width: sensor.integer("width", 1..=65_536)? as usize,
+            height: sensor.integer("height", 1..=65_536)? as usize,
+        };
+        let mut camera = Self {
             pedestal_dn,
             gain_e_per_dn: sensor.number("gain_e_per_dn", 1e-9..=1e9, "electrons a code")?,
             read_noise_e: sensor.number("read_noise_e", 0.0..=1e9, "electrons")?,
             focal_length_px: sensor.number("focal_length_px", 1e-3..=1e9, "pixels")?,
-            correlation_amplitude,
-            correlation_phase_rad,
-            included_physics: included_physics.into_iter().map(str::to_owned).collect(),
             effects: effects.into_iter().map(str::to_owned).collect(),
-        })
+            ..Self::assumed(geometry, adc_bits)
+        };
+        if let Some((amplitude, phase_rad)) = correlation {
+            (camera.correlation_amplitude, camera.correlation_phase_rad) = (amplitude, phase_rad);
+        }
+        if let Some(included) = included {
+            camera.included_physics = included.into_iter().map(str::to_owned).collect();
+        }
+        Ok(camera)
     }
 
     /// Whether the simulation includes `effect`, such as [`INVERSE_SQUARE_FALLOFF`], by name or with a value.
@@ -137,6 +156,13 @@ impl Camera {
     pub fn obliquities(&self) -> Vec<f64> {
         let places = (0..self.geometry.pixels()).map(|pixel| self.geometry.row_column(pixel));
         places.map(|(row, column)| self.obliquity(row, column)).collect()
+    }
+
+    /// The same camera with `geometry` for its pixels, behind the same lens: the field of view from left to right stays.
+    #[must_use]
+    pub fn resized(self, geometry: Geometry) -> Self {
+        let focal_length_px = self.focal_length_px * (geometry.width as f64 / self.geometry.width as f64);
+        Self { geometry, focal_length_px, ..self }
     }
 
     /// The converter's greatest code.

@@ -195,6 +195,7 @@ mod tests {
             included_physics: vec![
                 "inverse_square_falloff".to_owned(),
                 "axial_motion_of_recorded_velocity".to_owned(),
+                "of another program".to_owned(),
             ],
             effects: Vec::new(),
         }

@@ -8,9 +8,6 @@ use crate::problem::Result;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Pixels of a campaign.
-pub type Size = Geometry;
-
 /// A campaign.
 #[derive(Debug, Clone)]
 pub struct Case {
@@ -41,10 +38,8 @@ const RECORDINGS: [&str; 6] =
 const FRAME_PERIOD_S: f64 = 0.025;
 
 impl Case {
-    fn data(&self, size: Size) -> Result<Data> {
-        let mut camera = practice_camera(size);
-        // The field of view of 24 pixels' width.
-        camera.focal_length_px *= size.width as f64 / 24.0;
+    fn data(&self, size: Geometry) -> Result<Data> {
+        let camera = practice_camera(size);
         let sensor = sensor(&camera);
         let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: FRAME_PERIOD_S, seed: self.seed };
         let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
@@ -64,7 +59,7 @@ impl Case {
     ///
     /// # Errors
     /// A campaign that cannot be made.
-    pub fn detectable(&self, size: Size) -> Result<Vec<(&'static str, usize, f64)>> {
+    pub fn detectable(&self, size: Geometry) -> Result<Vec<(&'static str, usize, f64)>> {
         let found = diagnose(&self.data(size)?).judgement.found;
         let mut units: Vec<(&'static str, usize, f64)> = Vec::new();
         for (name, parameter, five) in found.detectable {
@@ -79,7 +74,7 @@ impl Case {
     ///
     /// # Errors
     /// A campaign that cannot be made.
-    pub fn run(&self, size: Size) -> Result<Outcome> {
+    pub fn run(&self, size: Geometry) -> Result<Outcome> {
         let answer = diagnose(&self.data(size)?).answer;
         let error = || {
             let (effect, number, values) = self.effect.as_ref()?;

@@ -7,10 +7,11 @@ mod case;
 mod page;
 mod summary;
 
-pub use case::{Case, Outcome, Size};
+pub use case::{Case, Outcome};
 pub use page::page;
 pub use summary::{Cell, Summary, interval};
 
+use crate::frames::Geometry;
 use crate::physics::{Chance, EFFECTS, Effect, effects};
 use crate::problem::Result;
 
@@ -21,7 +22,7 @@ pub const STRENGTHS: [f64; 3] = [6.0, 10.0, 20.0];
 #[derive(Debug, Clone)]
 pub struct Study {
     /// Pixels of the campaigns.
-    pub size: Size,
+    pub size: Geometry,
     /// Seed of the first campaign; each has its own.
     pub seed: u64,
     /// Campaigns without any effect.
@@ -43,6 +44,9 @@ impl Study {
         };
         let mut cases: Vec<Case> =
             (0..self.nulls).map(|_| Case { effect: None, rho: 0.0, seed: next() }).collect();
+        if self.repeats == 0 {
+            return Ok(cases);
+        }
         // What a clean campaign says of the strength that it would show.
         let units = Case { effect: None, rho: 0.0, seed: self.seed }.detectable(self.size)?;
         for effect in EFFECTS.iter().filter(|effect| is_tried(effect)) {

@@ -1,8 +1,9 @@
 //! What is known of the camera: a `camera.toml`, or its fields one by one, all of them or none.
 
+use super::super::option::in_range;
 use crate::frames::Geometry;
 use crate::problem::{Problem, Result};
-use crate::recording::{AXIAL_MOTION, Camera, INVERSE_SQUARE_FALLOFF};
+use crate::recording::Camera;
 use clap::Args;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -80,7 +81,7 @@ impl CameraArguments {
         ];
         for (option, value, allowed) in &fields {
             if let Some(value) = value {
-                super::taking::in_range(option, *value, allowed)?;
+                in_range(option, *value, allowed)?;
             }
         }
         let named = |given: bool| -> Vec<&str> {
@@ -98,24 +99,19 @@ impl CameraArguments {
             Some(focal_length_px),
         ) = (self.adc_bits, self.pedestal_dn, self.gain_e_per_dn, self.read_noise_e, self.focal_length_px)
         {
-            if pedestal_dn >= f64::from((1u32 << adc_bits) - 1) {
-                return Err(Problem::at("--pedestal-dn", pedestal_dn)
-                    .expected(format_args!("below the greatest code of {adc_bits} bits"))
-                    .remedy("give the code at no light in codes of this converter, or correct --adc-bits"));
-            }
-            return Ok(Known::Fields(Box::new(Camera {
-                geometry: Geometry { width: 1, height: 1 },
-                adc_bits,
+            let camera = Camera {
                 pedestal_dn,
                 gain_e_per_dn,
                 read_noise_e,
                 focal_length_px,
-                // As the format reads a file without these sections: no harmonics, and both effects.
-                correlation_amplitude: vec![1.0],
-                correlation_phase_rad: vec![0.0],
-                included_physics: [AXIAL_MOTION, INVERSE_SQUARE_FALLOFF].map(str::to_owned).to_vec(),
-                effects: Vec::new(),
-            })));
+                ..Camera::assumed(Geometry { width: 1, height: 1 }, adc_bits)
+            };
+            if pedestal_dn >= f64::from(camera.full_scale()) {
+                return Err(Problem::at("--pedestal-dn", pedestal_dn)
+                    .expected(format_args!("below the greatest code of {adc_bits} bits"))
+                    .remedy("give the code at no light in codes of this converter, or correct --adc-bits"));
+            }
+            return Ok(Known::Fields(Box::new(camera)));
         }
         match &named(true)[..] {
             [] | ["--adc-bits"] => Ok(Known::Bits(self.adc_bits)),

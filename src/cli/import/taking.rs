@@ -1,5 +1,6 @@
 //! The options that both kinds of import have: files, steps, times, and what else pictures do not tell.
 
+use super::super::option::{each_once, in_range};
 use super::camera::{CameraArguments, Known};
 use crate::import::{Levels, Taking};
 use crate::problem::{Problem, Result};
@@ -72,15 +73,6 @@ fn degrees(text: &str) -> std::result::Result<f64, String> {
     match (over.trim().parse::<f64>(), under.trim().parse::<f64>()) {
         (Ok(over), Ok(under)) if (over / under).is_finite() => Ok(over / under),
         _ => Err("expected degrees, such as 30, -90 or 360/7".to_owned()),
-    }
-}
-
-/// Refuses the value of an option outside its range.
-pub(super) fn in_range(option: &str, value: f64, allowed: &RangeInclusive<f64>) -> Result<()> {
-    let (low, high) = (allowed.start(), allowed.end());
-    match allowed.contains(&value) {
-        true => Ok(()),
-        false => Err(Problem::at(option, value).expected(format_args!("a number from {low:e} to {high:e}"))),
     }
 }
 
@@ -191,7 +183,7 @@ impl Frames {
             };
         }
         let is_plain = |c: char| c.is_alphanumeric() || "-_.".contains(c);
-        for (at, name) in self.recordings.iter().enumerate() {
+        for name in &self.recordings {
             if name.is_empty()
                 || name.starts_with('.')
                 || !name.chars().all(is_plain)
@@ -199,10 +191,8 @@ impl Frames {
             {
                 return refuse(name, "names of letters, digits, -, _ and ., for folders");
             }
-            if self.recordings[..at].contains(name) {
-                return refuse(&format!("{name} is there twice"), "each name once");
-            }
         }
+        each_once("--recordings", "name", self.recordings.iter().map(String::as_str))?;
         Ok(self.recordings.clone())
     }
 }

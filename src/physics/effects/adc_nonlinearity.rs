@@ -1,6 +1,6 @@
 //! The converter's integral non-linearity.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place, cos_sin};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
 use std::f64::consts::TAU;
 
 /// An error that is periodic in the code: its parts, and its period.
@@ -16,8 +16,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

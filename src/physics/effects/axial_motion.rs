@@ -1,6 +1,6 @@
 //! The phase changes while a set is taken.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Share of the recorded velocity that the phase follows from frame to frame; 1 is physics.
 pub static EFFECT: Effect = Effect {
@@ -12,8 +12,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -1,6 +1,6 @@
 //! The modulation's phase jitters from frame to frame.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Standard deviation of the phase of a frame, common to all pixels.
 pub static EFFECT: Effect = Effect {
@@ -11,8 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::Frame,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -1,6 +1,6 @@
 //! Harmonics of the waveform that the simulation lacks: wiggling, cyclic error.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 const BOUNDS: (f64, f64) = (-0.3, 0.3);
 const fn part(name: &'static str, typical: f64) -> Parameter {
@@ -30,8 +30,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Waveform,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

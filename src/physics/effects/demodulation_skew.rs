@@ -1,6 +1,6 @@
 //! The demodulation signal reaches columns and rows at different times.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 use std::f64::consts::TAU;
 
 /// Delay from the first to the last column, and from the first to the last row.
@@ -15,8 +15,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Path,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

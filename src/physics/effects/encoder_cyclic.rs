@@ -1,6 +1,6 @@
 //! The encoder errs periodically.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place, cos_sin};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
 use std::f64::consts::TAU;
 
 /// Parts of the error, and its period.
@@ -16,8 +16,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Encoder,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

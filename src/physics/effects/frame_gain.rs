@@ -1,6 +1,6 @@
 //! Frames of a set with gains of their own.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 const fn gain(name: &'static str) -> Parameter {
     Parameter::strength(name, "1", 0.0, (-0.3, 0.3), 0.005)
@@ -20,12 +20,35 @@ pub static EFFECT: Effect = Effect {
         gain("frame_5"),
         gain("frame_6"),
         gain("frame_7"),
+        gain("frame_8"),
+        gain("frame_9"),
+        gain("frame_10"),
+        gain("frame_11"),
+        gain("frame_12"),
+        gain("frame_13"),
+        gain("frame_14"),
+        gain("frame_15"),
+        gain("frame_16"),
+        gain("frame_17"),
+        gain("frame_18"),
+        gain("frame_19"),
+        gain("frame_20"),
+        gain("frame_21"),
+        gain("frame_22"),
+        gain("frame_23"),
+        gain("frame_24"),
+        gain("frame_25"),
+        gain("frame_26"),
+        gain("frame_27"),
+        gain("frame_28"),
+        gain("frame_29"),
+        gain("frame_30"),
+        gain("frame_31"),
     ],
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -1,6 +1,6 @@
 //! The camera's own light drifts over minutes.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Relative change of the camera's own light by the time a warm-up takes, and that time.
 pub static EFFECT: Effect = Effect {
@@ -14,8 +14,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Light,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

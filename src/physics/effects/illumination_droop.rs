@@ -1,6 +1,6 @@
 //! The camera's own light weakens within a set.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Relative change of the camera's own light from the set's first frame to its last.
 pub static EFFECT: Effect = Effect {
@@ -11,8 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Light,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

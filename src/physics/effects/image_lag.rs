@@ -1,6 +1,6 @@
 //! Charge that stays behind for the next frame.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Share of a frame's charge that is read with the next one.
 pub static EFFECT: Effect = Effect {
@@ -11,8 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Charge,
     chance: Chance::None,
     looks_back: true,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -1,26 +1,32 @@
 //! The pixel's response is not linear in the light.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
-/// Quadratic and cubic part, relative to the linear one at full scale.
+/// Quadratic and cubic part, relative to the linear one at full scale; and by how much the exponent of a response that is a power of the
+/// light differs from 1 (the gamma of cameras and projectors: 2.2 is 1.2).
 pub static EFFECT: Effect = Effect {
     name: "intensity_nonlinearity",
     sentence: "The pixel's response is not linear in the light, so harmonics appear that grow with the amplitude.",
-    reference: "I -> I + alpha I^2 + beta I^3",
+    reference: "I -> I + alpha I^2 + beta I^3; I -> I^(1 + gamma)",
     parameters: &[
         Parameter::strength("quadratic", "1", 0.0, (-0.6, 0.6), 0.02),
         Parameter::strength("cubic", "1", 0.0, (-0.6, 0.6), 0.02),
+        Parameter::strength("exponent", "1", 0.0, (-0.6, 2.0), 0.02).instead(),
     ],
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let full_scale_dn = exposure.pixels.full_scale_dn;
+    let exponent = values[2];
     for signal in &mut exposure.signal_dn {
+        // No light is no light by any power.
+        if exponent != 0.0 && *signal > 0.0 {
+            *signal *= libm::pow(*signal / full_scale_dn, exponent);
+        }
         let share = *signal / full_scale_dn;
         *signal += *signal * share * (values[0] + values[1] * share);
     }

@@ -1,6 +1,6 @@
 //! The scene moves sideways during a set.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Columns and rows a second by which the image moves.
 pub static EFFECT: Effect = Effect {
@@ -14,8 +14,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -1,6 +1,6 @@
 //! Light that the lens and the camera scatter over the whole image.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Share of every pixel's light that is spread over all pixels.
 pub static EFFECT: Effect = Effect {
@@ -11,8 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -28,6 +28,7 @@ mod multipath_interference;
 mod phase_drift;
 mod phase_step_errors;
 mod phase_step_scale;
+mod response_decay;
 mod saturation;
 mod tap_mismatch;
 mod timing_jitter_of_frames;
@@ -70,6 +71,8 @@ pub static EFFECTS: &[&Effect] = &[
     &lateral_motion::EFFECT,
     &excess_noise::EFFECT,
     &fixed_point::EFFECT,
+    // New ones come last: what chance draws follows the order.
+    &response_decay::EFFECT,
 ];
 
 /// The effect called `name`.

@@ -1,6 +1,6 @@
 //! Light that comes back by a longer way too.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 use crate::units::phase_rad;
 use std::sync::Arc;
 
@@ -18,8 +18,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

@@ -1,6 +1,6 @@
 //! Each phase step with an error of its own.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 use std::f64::consts::TAU;
 
 const fn step(name: &'static str) -> Parameter {
@@ -26,13 +26,32 @@ pub static EFFECT: Effect = Effect {
         step("setting_9_rad"),
         step("setting_10_rad"),
         step("setting_11_rad"),
+        step("setting_12_rad"),
+        step("setting_13_rad"),
+        step("setting_14_rad"),
+        step("setting_15_rad"),
+        step("setting_16_rad"),
+        step("setting_17_rad"),
+        step("setting_18_rad"),
+        step("setting_19_rad"),
+        step("setting_20_rad"),
+        step("setting_21_rad"),
+        step("setting_22_rad"),
+        step("setting_23_rad"),
+        step("setting_24_rad"),
+        step("setting_25_rad"),
+        step("setting_26_rad"),
+        step("setting_27_rad"),
+        step("setting_28_rad"),
+        step("setting_29_rad"),
+        step("setting_30_rad"),
+        step("setting_31_rad"),
         Parameter::choice("settings_a_turn", "1", &[0.0, SETTINGS]),
     ],
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 const SETTINGS: f64 = 12.0;

@@ -1,6 +1,6 @@
 //! The pixel's well is full before the converter is.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Share of the full scale that the well lacks.
 pub static EFFECT: Effect = Effect {
@@ -11,8 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

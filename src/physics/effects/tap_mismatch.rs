@@ -1,6 +1,6 @@
 //! Two taps that take turns, and are not alike.
 
-use crate::physics::{Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Relative gain of the tap of the odd frames against that of the even ones, less 1, and its pedestal.
 pub static EFFECT: Effect = Effect {
@@ -14,8 +14,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
-    act,
-    formula: None,
+    act: Act::Code(act),
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {

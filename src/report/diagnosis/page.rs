@@ -3,7 +3,6 @@
 use super::curves::curve;
 use super::text::paragraph;
 use crate::diagnose::{Diagnosis, Location};
-use crate::frames::Geometry;
 use crate::report::colour_map::ColourMap;
 use crate::report::pixel_image::png_data_uri;
 use askama::Template;
@@ -39,15 +38,12 @@ struct Section {
     parameters: Vec<Row>,
 }
 
-/// A self-contained HTML page of what `diagnosis` says of `campaign`, whose pixels are `geometry`.
+/// A self-contained HTML page of what `diagnosis` says of `campaign`.
 ///
 /// # Errors
 /// None that a caller can bring about: the template is part of the program.
-pub fn diagnosis_page(
-    campaign: &Path,
-    diagnosis: &Diagnosis,
-    geometry: Geometry,
-) -> crate::problem::Result<String> {
+pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem::Result<String> {
+    let geometry = diagnosis.geometry;
     let answer = &diagnosis.answer;
     let [before, after] = &diagnosis.judgement.locations;
     let limit = before.map.iter().chain(&after.map).copied().filter(|v| v.is_finite()).fold(1.5, f64::max);

@@ -1,0 +1,264 @@
+//! `vuris challenge`
+
+use super::print::{counted, say};
+use super::progress;
+use crate::artifact::write_file;
+use crate::challenge::{Answer, LabelFile, drawn, entropy, opened, scored, sealed, summary, table};
+use crate::problem::{Problem, Result};
+use crate::recording::write_campaign;
+use clap::{Args, Subcommand};
+use rayon::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+/// Campaigns with concealed effects from a second, independent generator: make them, answer them, score the answers
+#[derive(Debug, Args)]
+pub(super) struct Challenge {
+    #[command(subcommand)]
+    step: Step,
+}
+
+#[derive(Debug, Subcommand)]
+enum Step {
+    Make(Make),
+    Answer(Answers),
+    Score(Score),
+}
+
+/// Draw campaigns; seals go with them, labels into a file beside the folder
+#[derive(Debug, Args)]
+struct Make {
+    /// Number of campaigns
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    cases: u32,
+    /// The seed that everything follows from
+    #[arg(
+        long,
+        value_name = "S",
+        required_unless_present = "seed_from_entropy",
+        conflicts_with = "seed_from_entropy"
+    )]
+    seed: Option<u64>,
+    /// Take a seed that nobody knows; it is written to the file of labels
+    #[arg(long)]
+    seed_from_entropy: bool,
+    /// The new folder of the challenge
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// File of the labels, outside of DIR [default: DIR-labels.json]
+    #[arg(long, value_name = "FILE")]
+    labels: Option<PathBuf>,
+    /// The smallest sensor and few sets: for a trial
+    #[arg(long)]
+    tiny: bool,
+}
+
+/// Diagnose every campaign, each in a process that has only that campaign's folder
+#[derive(Debug, Args)]
+struct Answers {
+    /// The folder of the challenge
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+/// Check the seals, open the labels, and judge the answers
+#[derive(Debug, Args)]
+struct Score {
+    /// The folder of the challenge
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// File of the labels
+    #[arg(long, value_name = "FILE")]
+    labels: PathBuf,
+    /// Write the score as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+const SEALS: &str = "seals.json";
+const CAMPAIGNS: &str = "campaigns";
+const ANSWERS: &str = "answers";
+
+impl Challenge {
+    pub(super) fn run(self) -> Result<ExitCode> {
+        match self.step {
+            Step::Make(step) => step.run(),
+            Step::Answer(step) => step.run(),
+            Step::Score(step) => step.run(),
+        }
+    }
+}
+
+impl Make {
+    fn run(self) -> Result<ExitCode> {
+        let out = &self.out;
+        let name = out.file_name().ok_or_else(|| {
+            Problem::in_file(out, "is not a name for a new folder").remedy("give the folder a name")
+        })?;
+        let labels_file = self
+            .labels
+            .clone()
+            .unwrap_or_else(|| out.with_file_name(format!("{}-labels.json", name.to_string_lossy())));
+        for path in [out, &labels_file] {
+            if path.symlink_metadata().is_ok() {
+                return Err(Problem::in_file(path, "is there already").expected("a new challenge"));
+            }
+        }
+        if labels_file.starts_with(out) {
+            return Err(Problem::in_file(&labels_file, "lies in the challenge's own folder")
+                .expected("a file that whoever answers does not have")
+                .remedy(format_args!("take a place outside of {}", out.display())));
+        }
+        let seed = self.seed.unwrap_or_else(entropy);
+        let cases = drawn(self.cases as usize, seed, self.tiny);
+        let parent = match out.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let cannot = |error: std::io::Error| Problem::io(out, "write", &error);
+        fs::create_dir_all(parent).map_err(cannot)?;
+        let staging = tempfile::Builder::new().prefix(".vuris-").tempdir_in(parent).map_err(cannot)?;
+        let new = staging.path().join("new");
+        let labels = progress::steps(cases.len(), |done| {
+            cases
+                .par_iter()
+                .map(|case| {
+                    let (label, recordings) = case.made()?;
+                    let camera = recordings.first().and_then(|recording| recording.camera.clone());
+                    write_campaign(&recordings, camera.as_ref(), &new.join(CAMPAIGNS).join(case.name()))?;
+                    done("campaigns");
+                    Ok(label)
+                })
+                .collect::<Result<Vec<_>>>()
+        })?;
+        let (labels, seals) = sealed(&labels, seed)?;
+        write_file(&new.join(SEALS), &json_text(&seals)?)?;
+        write_file(&labels_file, &json_text(&labels)?)?;
+        fs::rename(&new, out).map_err(cannot)?;
+        say!("written: {}, {} with {SEALS}", out.display(), counted(cases.len(), "campaign"));
+        say!("written: {}", labels_file.display());
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn json_text(value: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| Problem::at("a file of JSON", error))?;
+    Ok(text + "\n")
+}
+
+fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T> {
+    let text = fs::read_to_string(path).map_err(|error| Problem::io(path, "read", &error))?;
+    serde_json::from_str(&text).map_err(|error| Problem::in_file(path, error))
+}
+
+/// The campaigns of the challenge in `folder`, by name.
+fn campaigns(folder: &Path) -> Result<Vec<String>> {
+    let place = folder.join(CAMPAIGNS);
+    let cannot = |error: std::io::Error| {
+        Problem::io(&place, "list", &error).expected("a folder that `vuris challenge make` has written")
+    };
+    let mut names = Vec::new();
+    for entry in fs::read_dir(&place).map_err(cannot)? {
+        names.push(entry.map_err(cannot)?.file_name().to_string_lossy().into_owned());
+    }
+    names.sort();
+    Ok(names)
+}
+
+impl Answers {
+    fn run(self) -> Result<ExitCode> {
+        let names = campaigns(&self.folder)?;
+        let program = std::env::current_exe()
+            .map_err(|error| Problem::at("this program", error).expected("a path to it"))?;
+        let file = |name: &str| self.folder.join(ANSWERS).join(format!("{name}.json"));
+        let open: Vec<&String> = names.iter().filter(|name| !is_answered(&file(name), &program)).collect();
+        let failures: Vec<Problem> = progress::steps(open.len(), |done| {
+            let answer = |name: &&String| {
+                let text = diagnosed(&program, &self.folder.join(CAMPAIGNS).join(name));
+                let written = text.and_then(|text| write_file(&file(name), &text));
+                done("campaigns");
+                written.err()
+            };
+            open.par_iter().filter_map(answer).collect()
+        });
+        if let Some(first) = failures.first() {
+            let others =
+                format!("{} of {} were not answered; the first: {first}", failures.len(), names.len());
+            return Err(Problem::in_file(&self.folder, others));
+        }
+        say!("{} answered, {} of them now", counted(names.len(), "campaign"), open.len());
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Whether `file` is a whole answer of this `program` or a later one.
+fn is_answered(file: &Path, program: &Path) -> bool {
+    let changed = |path: &Path| fs::metadata(path).and_then(|data| data.modified()).ok();
+    read_json::<Answer>(file).is_ok() && changed(file) >= changed(program)
+}
+
+/// The diagnosis of the campaign in `folder`, by a process that stands in a copy of it and has nothing else.
+fn diagnosed(program: &Path, folder: &Path) -> Result<String> {
+    let cannot = |error: std::io::Error| Problem::io(folder, "copy", &error);
+    let room = tempfile::Builder::new().prefix("vuris-").tempdir().map_err(cannot)?;
+    let copy = room.path().join("campaign");
+    copy_folder(folder, &copy).map_err(cannot)?;
+    let output = Command::new(program)
+        .args(["diagnose", ".", "--json", "-"])
+        .current_dir(&copy)
+        .env_clear()
+        // As many processes run at once as there are processors.
+        .env("RAYON_NUM_THREADS", "1")
+        .output()
+        .map_err(|error| Problem::io(program, "run", &error))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(Problem::in_file(folder, format_args!("the diagnosis failed: {}", said.trim())));
+    }
+    serde_json::from_str::<Answer>(&text)
+        .map_err(|error| Problem::in_file(folder, format_args!("the diagnosis is no answer: {error}")))?;
+    Ok(text)
+}
+
+fn copy_folder(from: &Path, to: &Path) -> std::io::Result<()> {
+    fs::create_dir(to)?;
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        let (path, copy) = (entry.path(), to.join(entry.file_name()));
+        if entry.file_type()?.is_dir() {
+            copy_folder(&path, &copy)?;
+        } else {
+            fs::copy(&path, &copy)?;
+        }
+    }
+    Ok(())
+}
+
+impl Score {
+    fn run(self) -> Result<ExitCode> {
+        let sealed: LabelFile = read_json(&self.labels)?;
+        let seals = read_json(&self.folder.join(SEALS))?;
+        let labels = opened(&self.labels.display().to_string(), &sealed, &seals)?;
+        let mut cases = Vec::new();
+        for label in labels {
+            let file = self.folder.join(ANSWERS).join(format!("{}.json", label.case));
+            let answer: Answer = read_json(&file).map_err(|problem| {
+                problem
+                    .expected("an answer to every campaign")
+                    .remedy(format_args!("vuris challenge answer {}", self.folder.display()))
+            })?;
+            cases.push((label, answer));
+        }
+        let scored = scored(cases);
+        if let Some(file) = &self.json {
+            write_file(file, &json_text(&summary(&scored))?)?;
+        }
+        say!("{} of seed {}, all labels fit their seals", counted(scored.cases.len(), "case"), sealed.seed);
+        say!("{}", table(&scored).trim_end());
+        Ok(ExitCode::SUCCESS)
+    }
+}

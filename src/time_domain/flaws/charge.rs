@@ -1,0 +1,67 @@
+//! Flaws of charge, read-out and converter.
+
+use super::{Flaw, Hook, Mechanism};
+use crate::time_domain::scene::Scene;
+use crate::time_domain::world::{Moment, World};
+use std::f64::consts::TAU;
+
+pub const MECHANISMS: &[Mechanism] = &[
+    mechanism("intensity_nonlinearity", "1", 0.01, 0.5, Hook::Response(intensity_nonlinearity), 'c'),
+    mechanism("saturation", "1", 0.1, 0.7, Hook::Response(saturation), 'c'),
+    mechanism("image_lag", "1", 0.005, 0.3, Hook::Lag(image_lag), 'l'),
+    mechanism("charge_crosstalk", "1", 0.01, 0.2, Hook::Image(charge_crosstalk), 'p'),
+    mechanism("adc_nonlinearity", "DN", 1.0, 60.0, Hook::Code(adc_nonlinearity), 'c'),
+];
+
+const fn mechanism(
+    name: &'static str,
+    unit: &'static str,
+    usual: f64,
+    most: f64,
+    hook: Hook,
+    group: char,
+) -> Mechanism {
+    Mechanism { name, unit, usual, most, hook, lives: &[], group }
+}
+
+/// The charge's capacity grows or shrinks with it: a quadratic and a cubic part.
+fn intensity_nonlinearity(flaw: &Flaw, world: &World, _: usize, charge_e: f64) -> f64 {
+    let filled = charge_e / world.sensor.full_scale_e();
+    let cubic = flaw.draw(1, 0.0, 0.6);
+    charge_e * (1.0 + flaw.sign(0) * flaw.size * ((1.0 - cubic) * filled + cubic * filled * filled))
+}
+
+/// The well is smaller than the converter's range, by its size.
+fn saturation(flaw: &Flaw, world: &World, _: usize, charge_e: f64) -> f64 {
+    charge_e.min((1.0 - flaw.size) * world.sensor.full_scale_e())
+}
+
+/// Charge of the frame before is still there.
+fn image_lag(flaw: &Flaw, before: &[f64], image: &mut [f64]) {
+    for (charge, before) in image.iter_mut().zip(before) {
+        *charge += flaw.size * (before - *charge);
+    }
+}
+
+/// Charge wanders to the four neighbours.
+fn charge_crosstalk(flaw: &Flaw, _: &Moment, scene: &Scene, image: &mut [f64]) {
+    let width = scene.geometry.width;
+    let before = image.to_vec();
+    for (pixel, charge) in image.iter_mut().enumerate() {
+        let column = pixel % width;
+        let neighbours = [
+            pixel.checked_sub(width),
+            Some(pixel + width),
+            (column > 0).then(|| pixel - 1),
+            (column + 1 < width).then_some(pixel + 1),
+        ];
+        let among = neighbours.into_iter().flatten().filter_map(|place| before.get(place));
+        *charge += flaw.size / 4.0 * among.map(|neighbour| neighbour - before[pixel]).sum::<f64>();
+    }
+}
+
+/// The converter's curve bends like an S, by so many codes.
+fn adc_nonlinearity(flaw: &Flaw, _: &Moment, world: &World, _: usize, code: f64) -> f64 {
+    let place = code / world.sensor.full_scale_dn();
+    code + flaw.sign(0) * flaw.size * (TAU * place).sin()
+}

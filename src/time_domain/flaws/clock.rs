@@ -1,0 +1,111 @@
+//! Flaws of time, position and phase.
+
+use super::{Flaw, Hook, Mechanism};
+use crate::time_domain::plan::Take;
+use crate::time_domain::world::Moment;
+use std::f64::consts::TAU;
+
+pub const MECHANISMS: &[Mechanism] = &[
+    mechanism("axial_motion", "", 1.0, 1.0, Hook::Unknown, 'b'),
+    mechanism("inverse_square_falloff", "", 1.0, 1.0, Hook::Unknown, 'b'),
+    mechanism("phase_step_scale", "1", 0.01, 0.3, Hook::Clock(phase_step_scale), 'b'),
+    mechanism("phase_step_errors", "rad", 0.01, 0.4, Hook::Clock(phase_step_errors), 'b'),
+    mechanism("phase_drift", "rad", 0.01, 1.0, Hook::Clock(phase_drift), 't'),
+    mechanism("clock_jitter", "rad", 0.005, 0.3, Hook::Clock(clock_jitter), 'j'),
+    mechanism("timing_jitter_of_frames", "s", 5e-4, 5e-3, Hook::Clock(timing_jitter), 'j'),
+    mechanism("modulation_frequency_error", "1", 1e-3, 0.1, Hook::Clock(frequency_error), 'e'),
+    mechanism("encoder_scale", "1", 1e-3, 0.1, Hook::Clock(encoder_scale), 'e'),
+    mechanism("encoder_cyclic", "m", 1e-3, 0.02, Hook::Clock(encoder_cyclic), 'e'),
+    mechanism("frame_gain", "1", 0.005, 0.3, Hook::Clock(frame_gain), 'a'),
+    mechanism("illumination_droop", "1", 0.01, 0.5, Hook::Clock(illumination_droop), 'a'),
+    mechanism("illumination_drift", "1", 0.01, 0.5, Hook::Clock(illumination_drift), 't'),
+    mechanism("ambient_drift", "1", 0.05, 3.0, Hook::Clock(ambient_drift), 'a'),
+    mechanism("ambient_flicker", "1", 0.02, 0.3, Hook::Clock(ambient_flicker), 'a'),
+];
+
+const fn mechanism(
+    name: &'static str,
+    unit: &'static str,
+    usual: f64,
+    most: f64,
+    hook: Hook,
+    group: char,
+) -> Mechanism {
+    Mechanism { name, unit, usual, most, hook, lives: &[], group }
+}
+
+/// The phase shifter's steps are longer than commanded; the offset is another register's.
+fn phase_step_scale(flaw: &Flaw, plan: &Take, moment: &mut Moment) {
+    moment.gate_rad += flaw.sign(0) * flaw.size * plan.steps_rad[moment.frame];
+}
+
+/// Each step of a sequence has an error of its own.
+fn phase_step_errors(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    moment.gate_rad += flaw.size * flaw.normal(0, moment.frames, moment.frame);
+}
+
+/// The laser driver warms up after the start of each recording.
+fn phase_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    let time_constant_s = flaw.draw(1, 5.0, 40.0);
+    moment.gate_rad += flaw.sign(0) * flaw.size * (1.0 - (-moment.time_s / time_constant_s).exp());
+}
+
+/// The clock's phase, from frame to frame.
+fn clock_jitter(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    moment.gate_rad += flaw.size * flaw.normal(moment.take, moment.set, moment.frame);
+}
+
+/// Frames do not begin when they should.
+fn timing_jitter(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    moment.within_s += flaw.size * flaw.normal(moment.take, moment.set, moment.frame);
+}
+
+fn frequency_error(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    moment.frequency_hz *= 1.0 + flaw.sign(0) * flaw.size;
+}
+
+/// The reading is too large or too small by a factor: the target is elsewhere.
+fn encoder_scale(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    let factor = 1.0 + flaw.sign(0) * flaw.size;
+    moment.position_m /= factor;
+    moment.began_m /= factor;
+    moment.velocity_m_s /= factor;
+}
+
+/// The reading is off by a wave over the position, as from an eccentric wheel.
+fn encoder_cyclic(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    let pitch_m = flaw.draw(0, 0.15, 0.6);
+    let wave = |position_m: f64| flaw.size * (TAU * (position_m / pitch_m + flaw.draws[1])).sin();
+    let velocity = 1.0 - flaw.size * TAU / pitch_m * (TAU * (moment.began_m / pitch_m + flaw.draws[1])).cos();
+    moment.position_m -= wave(moment.position_m);
+    moment.began_m = moment.position_m;
+    moment.velocity_m_s *= velocity;
+}
+
+/// Each frame of a sequence has a gain of its own, of all that it sees.
+fn frame_gain(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    moment.gain *= 1.0 + flaw.size * flaw.normal(0, moment.frames, moment.frame);
+}
+
+/// The laser's power sags after the start of each set, as its capacitor is drained.
+fn illumination_droop(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    let time_constant_s = flaw.draw(0, 0.05, 0.3);
+    moment.light *= 1.0 - flaw.size * (1.0 - (-moment.within_s.max(0.0) / time_constant_s).exp());
+}
+
+/// The laser's power falls as it warms up after the start of each recording.
+fn illumination_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    let time_constant_s = flaw.draw(0, 8.0, 60.0);
+    moment.light *= 1.0 - flaw.size * (1.0 - (-moment.time_s / time_constant_s).exp());
+}
+
+/// Daylight changes steadily, by its size in a minute.
+fn ambient_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    moment.ambient *= 1.0 + flaw.sign(0) * flaw.size * moment.time_s / 60.0;
+}
+
+/// A lamp on a mains of 50 or 60 Hz that is not quite at its frequency.
+fn ambient_flicker(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    let mains_hz = if flaw.draws[0] < 0.6 { 50.0 } else { 60.0 } + flaw.draw(1, -0.05, 0.05);
+    moment.ambient *= 1.0 + flaw.size * (TAU * (2.0 * mains_hz * moment.time_s + flaw.draws[2])).cos();
+}

@@ -1,0 +1,93 @@
+//! Flaws of the light and of the waveform.
+
+use super::{Flaw, Hook, Mechanism};
+use crate::frames::Geometry;
+use crate::time_domain::scene::Scene;
+use crate::time_domain::waveform::Waveform;
+use crate::time_domain::world::{Moment, Ray};
+use std::f64::consts::TAU;
+
+pub const MECHANISMS: &[Mechanism] = &[
+    mechanism("correlation_harmonics", "1", 0.005, 0.3, Hook::Waveform(correlation_harmonics), 'c'),
+    mechanism("multipath_interference", "1", 0.01, 0.5, Hook::Ray(multipath), 'p'),
+    mechanism("mixed_pixels", "1", 0.05, 0.5, Hook::Ray(mixed_pixels), 'p'),
+    mechanism("lens_scatter", "1", 0.005, 0.3, Hook::Image(lens_scatter), 'p'),
+    mechanism("intensity_related_phase", "rad", 0.01, 0.5, Hook::Ray(intensity_related_phase), 'i'),
+    mechanism("electrical_crosstalk", "DN", 1.0, 100.0, Hook::Ray(electrical_crosstalk), 'a'),
+];
+
+const fn mechanism(
+    name: &'static str,
+    unit: &'static str,
+    usual: f64,
+    most: f64,
+    hook: Hook,
+    group: char,
+) -> Mechanism {
+    Mechanism { name, unit, usual, most, hook, lives: &[], group }
+}
+
+/// The driver rings at a harmonic of the modulation: 2, 3 or 5.
+fn correlation_harmonics(flaw: &Flaw, waveform: &Waveform) -> Waveform {
+    let order = [3.0, 3.0, 5.0, 2.0][flaw.draw(0, 0.0, 3.999) as usize];
+    waveform.with_wave(order, flaw.size, TAU * flaw.draws[1])
+}
+
+/// Light that goes by a wall beside the path: out to the wall, to the target, and straight back.
+fn multipath(flaw: &Flaw, _: &Moment, _: &Scene, ray: &mut Ray) {
+    if ray.sees_target {
+        let wall_m = flaw.draw(0, 0.4, 1.5);
+        let out_m = ray.range_m.hypot(2.0 * wall_m);
+        // The way out spreads over its own length; the way back is the direct one's.
+        let amplitude_e = flaw.size * ray.amplitude_e * (ray.range_m / out_m).powi(2);
+        ray.echo = Some((amplitude_e, 0.5 * (ray.range_m + out_m)));
+    }
+}
+
+/// Each side of the target ends within a pixel: one that sees mostly the target, and some background, or the other way round.
+fn mixed_pixels(flaw: &Flaw, moment: &Moment, scene: &Scene, ray: &mut Ray) {
+    let Geometry { width, height } = scene.geometry;
+    let at = |row: usize, column: usize| {
+        (row < height && column < width).then(|| &scene.pixels[row * width + column])
+    };
+    let (row, column) = (ray.row, ray.column);
+    let beside = [
+        at(row, column.wrapping_sub(1)),
+        at(row, column + 1),
+        at(row.wrapping_sub(1), column),
+        at(row + 1, column),
+    ];
+    for (direction, other) in beside.into_iter().enumerate() {
+        let Some(other) = other.filter(|other| other.sees_target != ray.sees_target) else { continue };
+        // The target's left side is to the left of its own pixels, and to the right of the background's.
+        let side = if ray.sees_target { direction } else { direction ^ 1 };
+        if (flaw.draws[side] < 0.5) == ray.sees_target {
+            let share = flaw.size * flaw.draw(4 + side, 0.4, 1.0);
+            let distance_m = if other.sees_target { moment.position_m } else { scene.background_m };
+            let range_m = distance_m * other.obliquity;
+            ray.amplitude_e *= 1.0 - share;
+            ray.echo = Some((share * other.amplitude_e / (range_m * range_m), range_m));
+        }
+    }
+}
+
+/// The lens spreads a share of all light evenly over the sensor.
+fn lens_scatter(flaw: &Flaw, _: &Moment, scene: &Scene, image: &mut [f64]) {
+    // Ambient light is spread, too; it does not change.
+    let mean = image.iter().sum::<f64>() / scene.pixels.len() as f64;
+    for charge in image {
+        *charge += flaw.size * (mean - *charge);
+    }
+}
+
+/// A pixel's gate is the later the less light it has.
+fn intensity_related_phase(flaw: &Flaw, moment: &Moment, scene: &Scene, ray: &mut Ray) {
+    let level = moment.light * ray.amplitude_e / (0.1 * scene.brightest_e);
+    ray.delay_rad += flaw.sign(0) * flaw.size / (1.0 + level);
+}
+
+/// The laser driver's current couples into the read-out, with or without light.
+fn electrical_crosstalk(flaw: &Flaw, moment: &Moment, _: &Scene, ray: &mut Ray) {
+    // About ten electrons a code.
+    ray.extra_e += 10.0 * flaw.size * (moment.gate_rad - TAU * flaw.draws[0]).cos();
+}

@@ -1,0 +1,431 @@
+//! Blind challenges: the second generator against the first, seals, and the way from making to a score.
+
+use assert_cmd::Command;
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use vuris::bench::{Course, Simulation, chain, sensor};
+use vuris::challenge::{
+    Answer, Asserted, CaseKind, HeldOut, Hidden, Label, Located, Outcome, drawn, judge, opened, scored,
+    sealed, table,
+};
+use vuris::frames::Geometry;
+use vuris::physics::Pixels;
+use vuris::recording::{Kind, SetRow};
+use vuris::time_domain::{
+    Flaw, Hook, Known, Movie, Programme, Pulse, Ruler, Scene, Sensor, Waveform, World, camera, flaws, movie,
+    recordings,
+};
+
+// ---------------------------------------------------------------- two generators, one camera
+
+/// A small world with every kind of recording, in which the encoder is exact.
+fn world() -> World {
+    let geometry = Geometry { width: 8, height: 7 };
+    let sensor = Sensor {
+        adc_bits: 12,
+        pedestal_dn: 64.0,
+        gain_e_per_dn: 12.0,
+        read_noise_e: 30.0,
+        focal_length_px: 11.0,
+    };
+    let pulse = Pulse { duty: 0.47, rise: 0.12, fall: 0.2, pole: 0.07, floor: 0.0 };
+    let gate = Pulse { duty: 0.5, floor: 0.1, ..pulse };
+    let programme = Programme {
+        schemes: [true, true],
+        offsets: 7,
+        positions: 6,
+        runs: 1,
+        dark: 2,
+        harmonics: 2,
+        period_s: 0.025,
+    };
+    let mut takes = programme.takes(1);
+    for row in takes.iter_mut().flat_map(|take| &mut take.rows) {
+        row.reading_m = row.position_m;
+    }
+    World {
+        scene: Scene::random(geometry, sensor.focal_length_px, 9000.0, 2400.0, 3),
+        sensor,
+        frequency_hz: 31e6,
+        waveform: Waveform::of(&pulse.samples(), &gate.samples()),
+        takes,
+    }
+}
+
+/// The largest difference, in DN, between the frames of `world` and those of the harmonic-domain simulator, told what
+/// `camera.toml` tells of `told`.
+fn largest_difference_dn(world: &World, told: &World, known: Known) -> f64 {
+    let described = camera(told, known);
+    let pixels = &world.scene.pixels;
+    let light = |of: fn(&vuris::time_domain::Pixel) -> f64| -> Vec<f64> {
+        pixels.iter().map(|pixel| of(pixel) / world.sensor.gain_e_per_dn).collect()
+    };
+    let amplitude_1m_dn = light(|pixel| pixel.amplitude_e);
+    let target = world.scene.mask();
+    let edges = Pixels::edges_of(world.scene.geometry, &target);
+    let seen = Pixels {
+        geometry: world.scene.geometry,
+        obliquity: described.obliquities(),
+        background_m: pixels.iter().map(|pixel| world.scene.background_m * pixel.obliquity).collect(),
+        phase_rad: pixels.iter().map(|pixel| pixel.delay_rad - world.waveform.crest_rad()).collect(),
+        constant_1m_dn: amplitude_1m_dn.iter().map(|amplitude| amplitude * world.waveform.mean()).collect(),
+        amplitude_1m_dn,
+        ambient_dn: light(|pixel| pixel.ambient_e),
+        full_scale_dn: sensor(&described).full_scale_dn(),
+        pedestal_dn: described.pedestal_dn,
+        edge_counts: Pixels::edge_counts_of(&edges),
+        edges,
+        target,
+    };
+    let chain = chain(&described, Arc::new(seen), Vec::new());
+    let sensor = sensor(&described);
+    let simulation = Simulation { chain: &chain, sensor: &sensor, noise: false, seed: 1, recording: 0 };
+    let mut frames = movie(world, Known::BOTH, &[], None).into_iter();
+    let mut largest: f64 = 0.0;
+    for recording in recordings(world, known, &[], 1) {
+        let course = Course::of(&recording).unwrap();
+        for index in 0..course.count() {
+            let expected = simulation.signal(&course, index);
+            for (code, expected) in frames.next().unwrap().iter().zip(expected) {
+                largest = largest.max((code - world.sensor.pedestal_dn - expected).abs());
+            }
+        }
+    }
+    assert!(frames.next().is_none());
+    largest
+}
+
+/// Noise is about 3 to 10 DN a pixel. Over a campaign's 10^6 samples it averages to some thousandths of a DN.
+#[test]
+fn both_generators_agree_on_a_camera_without_flaws() {
+    let world = world();
+    let difference = largest_difference_dn(&world, &world, Known::BOTH);
+    assert!(difference < 0.005, "{difference} DN");
+}
+
+/// … and the comparison sees what is not the same: a waveform a little off, a frequency, the falloff, the motion.
+#[test]
+fn a_camera_that_is_told_wrongly_does_not_agree() {
+    let world = world();
+    let other = World { waveform: world.waveform.with_wave(3.0, 1e-4, 0.5), ..world.clone() };
+    let difference = largest_difference_dn(&world, &other, Known::BOTH);
+    assert!(difference > 0.02, "{difference} DN");
+    for known in [Known { falloff: false, motion: true }, Known { falloff: true, motion: false }] {
+        let difference = largest_difference_dn(&world, &world, known);
+        assert!(difference > 5.0, "{known:?}: {difference} DN");
+    }
+}
+
+// ---------------------------------------------------------------- flaws and their strengths
+
+fn largest(movie: &Movie) -> f64 {
+    movie.iter().flatten().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+/// Each mechanism changes something, the more the larger; with the size 0 it changes nothing.
+#[test]
+fn every_mechanism_is_off_at_no_size_and_acts_at_its_usual_one() {
+    let world = world();
+    let ruler = Ruler::of(&world);
+    let (mut inside, mut outside) = (0, 0);
+    for mechanism in flaws::all() {
+        let count = if mechanism.is_outside() { &mut outside } else { &mut inside };
+        *count += 1;
+        if matches!(mechanism.hook, Hook::Unknown) {
+            let known = Known {
+                falloff: mechanism.name != "inverse_square_falloff",
+                motion: mechanism.name != "axial_motion",
+            };
+            assert!(ruler.norm(&ruler.change(known, &[])) > 1.0, "{}", mechanism.name);
+            continue;
+        }
+        let change = |flaw: &Flaw, share: f64| ruler.change(Known::BOTH, &[&flaw.sized(share * flaw.size)]);
+        let off = largest(&change(&Flaw::drawn(mechanism, 5), 0.0));
+        assert!(off < 1e-9, "{}: {off} DN at no size", mechanism.name);
+        // Some shape of it shows in these few frames: a well that is large enough does not.
+        let full = Flaw::drawn(mechanism, 5).sized(mechanism.most);
+        let [some, more] = [0.5, 1.0].map(|share| ruler.norm(&change(&full, share)));
+        assert!(some.is_finite() && more > some && more > 1.0, "{}: {some}, {more}", mechanism.name);
+    }
+    assert!(inside >= 20 && outside >= 6, "{inside} effects of the library, {outside} others");
+}
+
+/// What a pixel's own numbers can take up is no strength; what they cannot, is. A thousandth of the amplitude is 0.7 DN here.
+#[test]
+fn strength_is_beyond_the_pixels_own_numbers_and_grows_with_size() {
+    let world = world();
+    let ruler = Ruler::of(&world);
+    let mut other = world.clone();
+    for (number, pixel) in other.scene.pixels.iter_mut().enumerate() {
+        pixel.delay_rad += 1e-5 * number as f64;
+        pixel.amplitude_e *= 1.001;
+        pixel.ambient_e *= 1.01;
+        pixel.constant_e += 3.0;
+    }
+    let mut change = movie(&other, Known::BOTH, &[], None);
+    for (value, clean) in change.iter_mut().flatten().zip(ruler.clean().iter().flatten()) {
+        *value -= clean;
+    }
+    assert!(largest(&change) > 0.5);
+    assert!(ruler.norm(&change) < 0.01, "{}", ruler.norm(&change));
+
+    let flaw = Flaw::drawn(flaws::named("phase_step_scale").unwrap(), 1);
+    for rho in [4.0, 12.0, 40.0] {
+        let sized = ruler.sized(&flaw, rho).unwrap();
+        let found = ruler.norm(&ruler.change(Known::BOTH, &[&sized]));
+        assert!((found / rho - 1.0).abs() < 0.03, "{found} for {rho}");
+    }
+    let change = |size: f64| ruler.change(Known::BOTH, &[&flaw.sized(size)]);
+    let beside_itself = ruler.norm_beside(&change(1e-3), &[&change(2e-3), ruler.clean()]);
+    assert!(beside_itself < 0.02 * ruler.norm(&change(1e-3)), "{beside_itself}");
+}
+
+/// The noise is what `camera.toml` says: repeats differ by photons and read noise.
+#[test]
+fn noise_has_the_variance_that_the_camera_tells() {
+    let world = world();
+    let clean = movie(&world, Known::BOTH, &[], None);
+    let noisy = movie(&world, Known::BOTH, &[], Some(4));
+    let read_dn = world.sensor.read_noise_e / world.sensor.gain_e_per_dn;
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (noisy, clean) in noisy.iter().flatten().zip(clean.iter().flatten()) {
+        let photons = (clean - world.sensor.pedestal_dn) / world.sensor.gain_e_per_dn;
+        sum += (noisy - clean).powi(2) / (photons + read_dn * read_dn + 1.0 / 12.0);
+        count += 1.0;
+    }
+    let chi2: f64 = sum / count;
+    assert!((chi2 - 1.0).abs() < 5.0 * (2.0f64 / count).sqrt(), "{chi2} of {count}");
+}
+
+// ---------------------------------------------------------------- judging
+
+fn hidden(name: &str) -> Hidden {
+    Hidden { name: name.to_owned(), size: 0.01, unit: "1".to_owned(), rho: 20.0, rho_beside: 10.0 }
+}
+
+fn label(effects: &[&str]) -> Label {
+    let kind = [CaseKind::Clean, CaseKind::Single, CaseKind::Pair][effects.len()];
+    Label {
+        case: "001".to_owned(),
+        kind,
+        effects: effects.iter().map(|name| hidden(name)).collect(),
+        or: Vec::new(),
+        near: Vec::new(),
+        limit: effects.iter().take(1).map(|name| (*name).to_owned()).collect(),
+        outside: None,
+        lives: Vec::new(),
+        rho: 20.0,
+    }
+}
+
+fn outside(lives: &[&str]) -> Label {
+    let lives = lives.iter().map(|&name| name.to_owned()).collect();
+    Label { kind: CaseKind::Outside, outside: Some(hidden("row_banding")), lives, ..label(&[]) }
+}
+
+/// An answer that names `effects`, each with what it cannot be told from after a bar.
+fn answer(verdict: &str, effects: &[&str], place: &str) -> Answer {
+    let asserted = |text: &&str| {
+        let mut names = text.split('|').map(str::to_owned);
+        Asserted { name: names.next().unwrap(), probability: 0.9, also_possible: names.collect() }
+    };
+    Answer {
+        format: "vuris-verdict/1".to_owned(),
+        verdict: verdict.to_owned(),
+        probability_of_mismatch: if verdict == "clean" { 0.1 } else { 0.97 },
+        located: vec![Located { coordinate: place.to_owned() }],
+        effects: effects.iter().map(asserted).collect(),
+        held_out: HeldOut { chi2_per_dof_before: 1.2, chi2_per_dof_after: 1.1 },
+    }
+}
+
+#[test]
+fn answers_are_worth_what_the_rules_say() {
+    let with_or = Label { or: vec![vec!["b".to_owned()]], near: vec![vec!["n".to_owned()]], ..label(&["a"]) };
+    for (label, answer, outcome) in [
+        (label(&[]), answer("clean", &[], ""), Outcome::Right),
+        (label(&[]), answer("unexplained", &[], "row"), Outcome::Wrong),
+        (label(&[]), answer("explained", &["a"], "row"), Outcome::Wrong),
+        (label(&["a"]), answer("explained", &["a"], "row"), Outcome::Right),
+        (label(&["a"]), answer("explained", &["b|c|a"], "row"), Outcome::Possible),
+        (label(&["a"]), answer("explained", &["b|c"], "row"), Outcome::Wrong),
+        (label(&["a"]), answer("explained", &["a", "b"], "row"), Outcome::Wrong),
+        (label(&["a"]), answer("unexplained", &[], "row"), Outcome::Silent),
+        (label(&["a"]), answer("clean", &[], ""), Outcome::Silent),
+        (label(&["a", "b"]), answer("explained", &["b", "a"], "row"), Outcome::Right),
+        (label(&["a", "b"]), answer("explained", &["b"], "row"), Outcome::Partly),
+        (label(&["a", "b"]), answer("explained", &["b", "c|a"], "row"), Outcome::Possible),
+        (label(&["a", "b"]), answer("explained", &["c|a", "d|a"], "row"), Outcome::Wrong),
+        (label(&["a", "b"]), answer("explained", &["b", "c"], "row"), Outcome::Wrong),
+        (label(&["a", "b"]), answer("explained", &["c|a"], "row"), Outcome::Partly),
+        (label(&["a", "b"]), answer("explained", &["c|d"], "row"), Outcome::Wrong),
+        (with_or.clone(), answer("explained", &["b"], "row"), Outcome::Right),
+        (with_or, answer("explained", &["n"], "row"), Outcome::Possible),
+        (outside(&["row", "set"]), answer("unexplained", &[], "set"), Outcome::Right),
+        (outside(&["row"]), answer("unexplained", &[], "column"), Outcome::Partly),
+        (outside(&["row"]), answer("clean", &[], ""), Outcome::Silent),
+        (outside(&["row"]), answer("explained", &["a"], "row"), Outcome::Wrong),
+        (outside(&["row"]), answer("partly_explained", &["a"], "row"), Outcome::Wrong),
+    ] {
+        assert_eq!(judge(&label, &answer), outcome, "{label:?} {answer:?}");
+    }
+}
+
+#[test]
+fn a_score_adds_up() {
+    let cases = vec![
+        (label(&[]), answer("clean", &[], "")),
+        (label(&[]), answer("unexplained", &[], "row")),
+        (label(&["a"]), answer("explained", &["a"], "row")),
+        (label(&["a"]), answer("explained", &["b|a"], "row")),
+        (label(&["a", "b"]), answer("explained", &["a"], "row")),
+        (outside(&["row"]), answer("clean", &[], "")),
+    ];
+    let scored = scored(cases);
+    assert_eq!(Outcome::ALL.map(|row| scored.all.of(row.0)), [2, 1, 1, 1, 1]);
+    assert_eq!(scored.all.score(), Some((2.0 + 0.5 - 0.25 - 1.0) / 6.0));
+    assert_eq!((scored.clean, scored.held_out), ((2, 1), (3, 3)));
+    assert_eq!(scored.kinds[&CaseKind::Clean].score(), Some(0.0));
+    // Strengths 10 beside the other: all four with an effect are in the range from 8 to 15.
+    assert_eq!(scored.strengths.each_ref().map(|tally| tally.cases()), [0, 4, 0, 0, 0]);
+    // The limit has the first effect only: it is right but for the pair. The answer is right of one clean and one with an effect.
+    assert_eq!(scored.limit[..3], [(2, 2, 1), (0, 0, 0), (3, 2, 1)]);
+    // Three names with probability 0.9, of which b is false; four mismatches stated, one of them of a clean campaign.
+    assert_eq!((scored.names[2].stated, scored.names[2].true_ones), (3, 2));
+    assert_eq!((scored.mismatch[3].stated, scored.mismatch[3].true_ones), (4, 3));
+    let text = table(&scored);
+    for line in ["false alarms: 1 of 2 clean campaigns", "answered: explained b (or a), in row", "all "] {
+        assert!(text.contains(line), "{line} is not in\n{text}");
+    }
+}
+
+// ---------------------------------------------------------------- seals
+
+#[test]
+fn a_seal_refuses_a_label_that_was_changed() {
+    let mut second = label(&["image_lag"]);
+    second.case = "002".to_owned();
+    let labels = [label(&[]), second];
+    let (file, seals) = sealed(&labels, 7).unwrap();
+    assert_eq!(opened("labels.json", &file, &seals).unwrap(), labels);
+    // Also from the files' text, and other seeds seal otherwise.
+    let text = serde_json::to_string_pretty(&file).unwrap();
+    assert_eq!(opened("labels.json", &serde_json::from_str(&text).unwrap(), &seals).unwrap(), labels);
+    assert_ne!(sealed(&labels, 8).unwrap().1.cases[0].sha256, seals.cases[0].sha256);
+    for (from, to) in [("image_lag", "frame_gain"), ("\"rho\": 20.0", "\"rho\": 21.0")] {
+        let changed = text.replace(from, to);
+        assert_ne!(changed, text);
+        let refusal = opened("labels.json", &serde_json::from_str(&changed).unwrap(), &seals).unwrap_err();
+        assert!(refusal.to_string().contains("does not fit its seal"), "{refusal}");
+    }
+    let mut salted = file.clone();
+    salted.cases[1].salt = file.cases[0].salt.clone();
+    let mut fewer = file.clone();
+    fewer.cases.pop();
+    let mut swapped = file;
+    swapped.cases.swap(0, 1);
+    for (file, what) in
+        [(salted, "case 002: the label does not fit"), (fewer, "1 labels for 2 seals"), (swapped, "case 001")]
+    {
+        let refusal = opened("labels.json", &file, &seals).unwrap_err().to_string();
+        assert!(refusal.contains(what), "{refusal}");
+    }
+}
+
+// ---------------------------------------------------------------- the commands
+
+fn vuris(arguments: &[&str], at: &Path) -> assert_cmd::assert::Assert {
+    Command::cargo_bin("vuris").unwrap().arg("challenge").args(arguments).current_dir(at).assert()
+}
+
+/// Every file below `folder`, by its path.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else {
+            found.push((path.display().to_string(), fs::read(&path).unwrap()));
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn a_small_challenge_is_made_answered_and_scored() {
+    let home = tempfile::tempdir().unwrap();
+    let make = |out: &str| {
+        vuris(&["make", "--tiny", "--cases", "4", "--seed", "3", "--out", out], home.path()).success()
+    };
+    make("one/c");
+    make("two/c");
+    let relative = |folder: &str| {
+        let root = home.path().join(folder);
+        let strip = |(path, bytes): (String, Vec<u8>)| {
+            (path.strip_prefix(&root.display().to_string()).unwrap().to_owned(), bytes)
+        };
+        files(&root).into_iter().map(strip).collect::<Vec<_>>()
+    };
+    assert!(relative("one") == relative("two"), "a seed makes one challenge");
+    assert!(!relative("one").is_empty());
+
+    // The names of what is concealed are nowhere in the folder that is answered.
+    let labels = fs::read_to_string(home.path().join("one/c-labels.json")).unwrap();
+    for (path, bytes) in relative("one/c") {
+        let text = String::from_utf8_lossy(&bytes);
+        for mechanism in flaws::all() {
+            // What the camera's simulation includes is said by name.
+            let told = path.ends_with("camera.toml")
+                && text.contains("included")
+                && matches!(mechanism.hook, Hook::Unknown);
+            assert!(
+                told || !text.contains(mechanism.name) && !path.contains(mechanism.name),
+                "{path}: {}",
+                mechanism.name
+            );
+        }
+        assert!(!path.contains("label"), "{path}");
+    }
+
+    vuris(&["score", "one/c", "--labels", "one/c-labels.json"], home.path()).failure();
+    vuris(&["answer", "one/c"], home.path()).success().stderr("");
+    let again = vuris(&["answer", "one/c"], home.path()).success();
+    assert!(String::from_utf8_lossy(&again.get_output().stdout).contains("0 of them now"));
+    let score =
+        vuris(&["score", "one/c", "--labels", "one/c-labels.json", "--json", "score.json"], home.path());
+    let text = String::from_utf8_lossy(&score.success().get_output().stdout).into_owned();
+    assert!(text.contains("false alarms"), "{text}");
+    let json: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(home.path().join("score.json")).unwrap()).unwrap();
+    assert_eq!(json["all"]["cases"], 4);
+
+    fs::write(home.path().join("forged.json"), labels.replacen("\"rho\": ", "\"rho\": 1", 1)).unwrap();
+    let refused = vuris(&["score", "one/c", "--labels", "forged.json"], home.path()).failure();
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("does not fit its seal"));
+    let inside = vuris(
+        &["make", "--cases", "1", "--seed", "1", "--out", "new", "--labels", "new/l.json"],
+        home.path(),
+    );
+    assert!(String::from_utf8_lossy(&inside.failure().get_output().stderr).contains("own folder"));
+}
+
+/// Kinds have their shares in an order of chance; everything follows from the seed.
+#[test]
+fn cases_of_every_kind_are_drawn_and_are_whole() {
+    let cases = drawn(100, 3, true);
+    let count = |kind| cases.iter().filter(|case| case.kind() == kind).count();
+    assert_eq!((count(CaseKind::Clean), count(CaseKind::Single), count(CaseKind::Outside)), (20, 36, 16));
+    assert!(cases.windows(2).filter(|two| two[0].kind() != two[1].kind()).count() > 50);
+    assert_eq!(drawn(100, 3, true), cases);
+    assert_ne!(drawn(100, 4, true), cases);
+    let (label, recordings) = cases[0].made().unwrap();
+    assert_eq!((label.case.as_str(), cases[0].name().as_str()), ("001", "001"));
+    for recording in recordings {
+        let sets: &[SetRow] = &recording.sets;
+        assert!(!sets.is_empty() && recording.raw.sets() == sets.len(), "{}", recording.name);
+        assert_ne!(recording.kind, Kind::Other);
+    }
+}
