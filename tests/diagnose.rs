@@ -90,12 +90,7 @@ const SINGLE: [(&str, &str, &str, f64); 6] = [
         "relative_amplitude",
         0.1,
     ),
-    (
-        "ambient_flicker",
-        "ambient_flicker:cosine=0.05,sine=0.02,frequency_hz=103.1",
-        "frequency_hz",
-        103.1,
-    ),
+    ("ambient_flicker", "ambient_flicker:cosine=0.05,sine=0.02,frequency_hz=103.1", "frequency_hz", 103.1),
     ("encoder_cyclic", "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.137", "period_m", 0.137),
 ];
 

@@ -222,7 +222,7 @@ fn deflated(cluster: &Cluster, ln_bayes: f64, chi2: f64) -> f64 {
 /// A random effect of the registry, if the strongest cluster is what it makes, and nothing orders it.
 fn random_effect(data: &Data, location: &Location) -> Option<(&'static str, Cluster)> {
     let cluster = *real(data, location).first()?;
-    let ordered = |located: &Located| deflated(&cluster, located.ln_bayes, located.chi2.0);
+    let ordered = |located: &Located| deflated(cluster, located.ln_bayes, located.chi2.0);
     let ordered = location.columns.iter().map(ordered).fold(0.0, f64::max);
     if ordered > 0.02 * cluster.ln_bayes + LOCATED_NATS {
         return None;
