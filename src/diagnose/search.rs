@@ -6,6 +6,7 @@ use super::evidence::{Block, Evidence, Model, is_seen};
 use super::fit::{Fit, fit};
 use super::gram::{Gram, Noise};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
+use std::collections::BTreeSet;
 
 /// Less evidence than this (nats) asserts nothing.
 pub const THRESHOLD: f64 = 1.0;
@@ -170,35 +171,20 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
             let pieces = current.pieces.iter().cloned().chain(more).collect();
             fit(data, Some(&current), pieces, noise, &|_| true)
         };
-        // Of a pair, the strongest member is the one that fits best beside the other.
-        let leaders = if whole.blocks.len() > 1 { Vec::new() } else { pass.leaders(&best) };
-        let (best, fitted) = match leaders[..] {
-            [] | [_] => {
-                let fitted = with(&best.blocks);
-                (best, fitted)
-            }
-            ref leaders => {
-                let fitted = |&block: &usize| {
-                    let fit = with(&[block]);
-                    let score = pass.scores[block].map_or(0.0, |(chi2, _)| chi2);
-                    let gain = current.chi2 - fit.chi2 - fit.unreached;
-                    (Model { blocks: vec![block], ln_bayes: pass.singles[block] + 0.5 * (gain - score) }, fit)
-                };
-                let mut fits: Vec<(Model, Fit)> = leaders.iter().map(fitted).collect();
-                fits.sort_by(|a, b| b.0.ln_bayes.total_cmp(&a.0.ln_bayes));
-                let others = fits.split_off(1);
-                let Some((model, fit)) = fits.pop() else { break };
-                let name = |model: &Model| candidates[pass.blocks[model.blocks[0]].candidate].effect.name;
-                // What its form may leave does not tell it from others either.
-                let form = 0.5 * tolerance(name(&model)) * (current.chi2 - fit.chi2);
-                let least = model.ln_bayes - form.max(RIVAL_NATS);
-                let near = others.iter().filter(|other| other.0.ln_bayes > least).map(|other| name(&other.0));
-                rivals.extend(near.map(str::to_owned));
-                rivals.retain(|rival| *rival != name(&model));
-                rivals.dedup();
-                (model, fit)
-            }
+        let leaders = pass.leaders(&whole);
+        let (best, fitted) = if leaders.len() < 2 {
+            let fitted = with(&best.blocks);
+            (best, fitted)
+        } else {
+            let fits = leaders.into_iter().map(|block| (block, with(&[block])));
+            let (best, fitted, near) = pass.fittest(current.chi2, fits, &candidates);
+            rivals.extend(near);
+            rivals.retain(|rival| rival != pass.name(best.blocks[0], &candidates));
+            (best, fitted)
         };
+        rivals.extend(pass.near(&best, &candidates));
+        let mut known = BTreeSet::new();
+        rivals.retain(|rival| known.insert(rival.clone()));
         for &block in &best.blocks {
             let block_of = &pass.blocks[block];
             named.push(Named {
@@ -235,7 +221,12 @@ fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<N
 }
 
 impl Pass {
-    /// Blocks that may be the best one when they are fitted; none but `best` where that is a pair, or its tangents hold.
+    fn name(&self, block: usize, candidates: &[Candidate]) -> &'static str {
+        candidates[self.blocks[block].candidate].effect.name
+    }
+
+    /// Blocks that may be the best one when they are fitted; none where `best` is a pair, whose strongest member is the one that fits best
+    /// beside the other, and `best` alone where its tangents hold.
     fn leaders(&self, best: &Model) -> Vec<usize> {
         let score = |block: usize| self.scores[block].map_or(0.0, |(chi2, _)| chi2);
         let [block] = best.blocks[..] else { return Vec::new() };
@@ -248,6 +239,45 @@ impl Pass {
         leaders.sort_by(|&a, &b| self.singles[b].total_cmp(&self.singles[a]));
         leaders.truncate(MOST_LEADERS);
         leaders
+    }
+
+    /// Of blocks and their fits, to data whose chi squared was `before`: the best one, with its fit, and the effects that come as near as
+    /// its form can be trusted.
+    fn fittest(
+        &self,
+        before: f64,
+        fits: impl Iterator<Item = (usize, Fit)>,
+        candidates: &[Candidate],
+    ) -> (Model, Fit, Vec<String>) {
+        let judged = |(block, fit): (usize, Fit)| {
+            let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);
+            let gain = before - fit.chi2 - fit.unreached;
+            (self.singles[block] + 0.5 * (gain - score), block, fit)
+        };
+        let mut judged: Vec<(f64, usize, Fit)> = fits.map(judged).collect();
+        judged.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let (ln_bayes, block, fit) = judged.remove(0);
+        // What its form may leave does not tell it from others either.
+        let form = 0.5 * tolerance(self.name(block, candidates)) * (before - fit.chi2);
+        let least = ln_bayes - form.max(RIVAL_NATS);
+        let near = judged.iter().filter(|other| other.0 > least).map(|other| self.name(other.1, candidates));
+        let near = near.map(str::to_owned).collect();
+        (Model { blocks: vec![block], ln_bayes }, fit, near)
+    }
+
+    /// Of a clear single effect: others that explain as much by no more numbers, but for what its form may leave.
+    fn near(&self, best: &Model, candidates: &[Candidate]) -> Vec<String> {
+        let [block] = best.blocks[..] else { return Vec::new() };
+        if self.singles[block] < STRONG_NATS {
+            return Vec::new();
+        }
+        let score = |block: usize| self.scores[block].unwrap_or((0.0, usize::MAX));
+        let name = self.name(block, candidates);
+        let least = (1.0 - tolerance(name)) * score(block).0;
+        let is_near = |&other: &usize| {
+            self.name(other, candidates) != name && score(other).0 > least && score(other).1 <= score(block).1
+        };
+        (0..self.blocks.len()).filter(is_near).map(|other| self.name(other, candidates).to_owned()).collect()
     }
 
     /// The model to be fitted next, if it explains more than what is `tolerated`; and, where that is only a part of the best one, the whole.
@@ -283,10 +313,7 @@ impl Pass {
             let others: Vec<usize> =
                 model.blocks.iter().map(candidate).filter(|c| !own.contains(c)).collect();
             if let [other] = others[..] {
-                let name = candidates[other].effect.name.to_owned();
-                if !rivals.contains(&name) {
-                    rivals.push(name);
-                }
+                rivals.push(candidates[other].effect.name.to_owned());
             }
         }
         rivals

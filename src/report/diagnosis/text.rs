@@ -29,6 +29,10 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
             let unit = if row.unit == "1" { String::new() } else { format!(" {}", row.unit) };
             let _ = writeln!(text, "  {} = {:.6} \u{b1} {:.2e}{unit}", row.name, row.value, row.sigma);
         }
+        let more = effect.parameters.len().saturating_sub(3 * MOST);
+        if more > 0 {
+            let _ = writeln!(text, "  and {more} more (--json has them all)");
+        }
         if !effect.also_possible.is_empty() {
             let _ = writeln!(text, "  cannot be told apart here from {}", effect.also_possible.join(", "));
         }
