@@ -7,6 +7,7 @@ use crate::physics::{Active, Effect, Moment, effects};
 use crate::problem::{Problem, Result};
 use crate::recording::{Camera, Recording};
 use serde::Serialize;
+use std::sync::Arc;
 
 /// A recording's frames.
 #[derive(Debug, Clone)]
@@ -43,7 +44,7 @@ pub struct Data {
     /// What was taken for granted, as no file says it.
     pub assumed: Assumed,
     /// Of a grid with gaps, pixels without gaps: what neighbours make is seen there alone.
-    pub close: Option<Box<Self>>,
+    pub close: Option<Arc<Self>>,
     /// Whether there is a recording without the camera's light.
     has_dark: bool,
 }
@@ -89,12 +90,9 @@ impl Data {
         let target: Vec<bool> = (0..geometry.pixels()).map(sees_target).collect();
         let frames = recordings.iter().map(|recording| recording.raw.codes().len() / geometry.pixels()).sum();
         let grid = Grid::of(geometry, frames);
-        let close = match grid.close(&target) {
-            Some(close) => Some(Self::seen(recordings, &camera, &library, assumed, &target, close)?),
-            None => None,
-        };
-        let data = Self::seen(recordings, &camera, &library, assumed, &target, grid)?;
-        Ok(Self { close: close.map(Box::new), ..data })
+        let seen = |grid| Self::seen(recordings, &camera, &library, assumed, &target, grid);
+        let close = grid.close(&target).map(seen).transpose()?;
+        Ok(Self { close: close.map(Arc::new), ..seen(grid)? })
     }
 
     /// The pixels of `grid`.
@@ -180,11 +178,8 @@ impl Data {
 
     /// Radial distance over axial distance of every pixel that is looked at: where it is on the whole sensor counts.
     pub fn obliquities(&self) -> Vec<f64> {
-        let of = |&pixel: &usize| {
-            let (row, column) = self.described.geometry.row_column(pixel);
-            self.described.obliquity(row, column)
-        };
-        self.grid.pixels().iter().map(of).collect()
+        let all = self.described.obliquities();
+        self.grid.pixels().into_iter().map(|pixel| all[pixel]).collect()
     }
 
     /// The pixels that are looked at.
