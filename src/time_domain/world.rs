@@ -43,6 +43,15 @@ pub struct Known {
 impl Known {
     /// As the world is.
     pub const BOTH: Self = Self { falloff: true, motion: true };
+
+    /// All but what is in `names`, by the effects' names.
+    pub fn without<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        names.into_iter().fold(Self::BOTH, |known, name| match name {
+            "inverse_square_falloff" => Self { falloff: false, ..known },
+            "axial_motion" => Self { motion: false, ..known },
+            _ => known,
+        })
+    }
 }
 
 /// A campaign's world.

@@ -6,23 +6,12 @@ use crate::time_domain::world::{Moment, World};
 use std::f64::consts::TAU;
 
 pub const MECHANISMS: &[Mechanism] = &[
-    mechanism("intensity_nonlinearity", "1", 0.01, 0.5, Hook::Response(intensity_nonlinearity), 'c'),
-    mechanism("saturation", "1", 0.1, 0.7, Hook::Response(saturation), 'c'),
-    mechanism("image_lag", "1", 0.005, 0.3, Hook::Lag(image_lag), 'l'),
-    mechanism("charge_crosstalk", "1", 0.01, 0.2, Hook::Image(charge_crosstalk), 'p'),
-    mechanism("adc_nonlinearity", "DN", 1.0, 60.0, Hook::Code(adc_nonlinearity), 'c'),
+    Mechanism::known("intensity_nonlinearity", "1", 0.01, 0.5, Hook::Response(intensity_nonlinearity), 'c'),
+    Mechanism::known("saturation", "1", 0.1, 0.7, Hook::Response(saturation), 'c'),
+    Mechanism::known("image_lag", "1", 0.005, 0.3, Hook::Lag(image_lag), 'l'),
+    Mechanism::known("charge_crosstalk", "1", 0.01, 0.2, Hook::Image(charge_crosstalk), 'p'),
+    Mechanism::known("adc_nonlinearity", "DN", 1.0, 60.0, Hook::Code(adc_nonlinearity), 'c'),
 ];
-
-const fn mechanism(
-    name: &'static str,
-    unit: &'static str,
-    usual: f64,
-    most: f64,
-    hook: Hook,
-    group: char,
-) -> Mechanism {
-    Mechanism { name, unit, usual, most, hook, lives: &[], group }
-}
 
 /// The charge's capacity grows or shrinks with it: a quadratic and a cubic part.
 fn intensity_nonlinearity(flaw: &Flaw, world: &World, _: usize, charge_e: f64) -> f64 {

@@ -6,33 +6,22 @@ use crate::time_domain::world::Moment;
 use std::f64::consts::TAU;
 
 pub const MECHANISMS: &[Mechanism] = &[
-    mechanism("axial_motion", "", 1.0, 1.0, Hook::Unknown, 'b'),
-    mechanism("inverse_square_falloff", "", 1.0, 1.0, Hook::Unknown, 'b'),
-    mechanism("phase_step_scale", "1", 0.01, 0.3, Hook::Clock(phase_step_scale), 'b'),
-    mechanism("phase_step_errors", "rad", 0.01, 0.4, Hook::Clock(phase_step_errors), 'b'),
-    mechanism("phase_drift", "rad", 0.01, 1.0, Hook::Clock(phase_drift), 't'),
-    mechanism("clock_jitter", "rad", 0.005, 0.3, Hook::Clock(clock_jitter), 'j'),
-    mechanism("timing_jitter_of_frames", "s", 5e-4, 5e-3, Hook::Clock(timing_jitter), 'j'),
-    mechanism("modulation_frequency_error", "1", 1e-3, 0.1, Hook::Clock(frequency_error), 'e'),
-    mechanism("encoder_scale", "1", 1e-3, 0.1, Hook::Clock(encoder_scale), 'e'),
-    mechanism("encoder_cyclic", "m", 1e-3, 0.02, Hook::Clock(encoder_cyclic), 'e'),
-    mechanism("frame_gain", "1", 0.005, 0.3, Hook::Clock(frame_gain), 'a'),
-    mechanism("illumination_droop", "1", 0.01, 0.5, Hook::Clock(illumination_droop), 'a'),
-    mechanism("illumination_drift", "1", 0.01, 0.5, Hook::Clock(illumination_drift), 't'),
-    mechanism("ambient_drift", "1", 0.05, 3.0, Hook::Clock(ambient_drift), 'a'),
-    mechanism("ambient_flicker", "1", 0.02, 0.3, Hook::Clock(ambient_flicker), 'a'),
+    Mechanism::known("axial_motion", "", 1.0, 1.0, Hook::Unknown, 'b'),
+    Mechanism::known("inverse_square_falloff", "", 1.0, 1.0, Hook::Unknown, 'b'),
+    Mechanism::known("phase_step_scale", "1", 0.01, 0.3, Hook::Clock(phase_step_scale), 'b'),
+    Mechanism::known("phase_step_errors", "rad", 0.01, 0.4, Hook::Clock(phase_step_errors), 'b'),
+    Mechanism::known("phase_drift", "rad", 0.01, 1.0, Hook::Clock(phase_drift), 't'),
+    Mechanism::known("clock_jitter", "rad", 0.005, 0.3, Hook::Clock(clock_jitter), 'j'),
+    Mechanism::known("timing_jitter_of_frames", "s", 5e-4, 5e-3, Hook::Clock(timing_jitter), 'j'),
+    Mechanism::known("modulation_frequency_error", "1", 1e-3, 0.1, Hook::Clock(frequency_error), 'e'),
+    Mechanism::known("encoder_scale", "1", 1e-3, 0.1, Hook::Clock(encoder_scale), 'e'),
+    Mechanism::known("encoder_cyclic", "m", 1e-3, 0.02, Hook::Clock(encoder_cyclic), 'e'),
+    Mechanism::known("frame_gain", "1", 0.005, 0.3, Hook::Clock(frame_gain), 'a'),
+    Mechanism::known("illumination_droop", "1", 0.01, 0.5, Hook::Clock(illumination_droop), 'a'),
+    Mechanism::known("illumination_drift", "1", 0.01, 0.5, Hook::Clock(illumination_drift), 't'),
+    Mechanism::known("ambient_drift", "1", 0.05, 3.0, Hook::Clock(ambient_drift), 'a'),
+    Mechanism::known("ambient_flicker", "1", 0.02, 0.3, Hook::Clock(ambient_flicker), 'a'),
 ];
-
-const fn mechanism(
-    name: &'static str,
-    unit: &'static str,
-    usual: f64,
-    most: f64,
-    hook: Hook,
-    group: char,
-) -> Mechanism {
-    Mechanism { name, unit, usual, most, hook, lives: &[], group }
-}
 
 /// The phase shifter's steps are longer than commanded; the offset is another register's.
 fn phase_step_scale(flaw: &Flaw, plan: &Take, moment: &mut Moment) {

@@ -8,24 +8,13 @@ use crate::time_domain::world::{Moment, Ray};
 use std::f64::consts::TAU;
 
 pub const MECHANISMS: &[Mechanism] = &[
-    mechanism("correlation_harmonics", "1", 0.005, 0.3, Hook::Waveform(correlation_harmonics), 'c'),
-    mechanism("multipath_interference", "1", 0.01, 0.5, Hook::Ray(multipath), 'p'),
-    mechanism("mixed_pixels", "1", 0.05, 0.5, Hook::Ray(mixed_pixels), 'p'),
-    mechanism("lens_scatter", "1", 0.005, 0.3, Hook::Image(lens_scatter), 'p'),
-    mechanism("intensity_related_phase", "rad", 0.01, 0.5, Hook::Ray(intensity_related_phase), 'i'),
-    mechanism("electrical_crosstalk", "DN", 1.0, 100.0, Hook::Ray(electrical_crosstalk), 'a'),
+    Mechanism::known("correlation_harmonics", "1", 0.005, 0.3, Hook::Waveform(correlation_harmonics), 'c'),
+    Mechanism::known("multipath_interference", "1", 0.01, 0.5, Hook::Ray(multipath), 'p'),
+    Mechanism::known("mixed_pixels", "1", 0.05, 0.5, Hook::Ray(mixed_pixels), 'p'),
+    Mechanism::known("lens_scatter", "1", 0.005, 0.3, Hook::Image(lens_scatter), 'p'),
+    Mechanism::known("intensity_related_phase", "rad", 0.01, 0.5, Hook::Ray(intensity_related_phase), 'i'),
+    Mechanism::known("electrical_crosstalk", "DN", 1.0, 100.0, Hook::Ray(electrical_crosstalk), 'a'),
 ];
-
-const fn mechanism(
-    name: &'static str,
-    unit: &'static str,
-    usual: f64,
-    most: f64,
-    hook: Hook,
-    group: char,
-) -> Mechanism {
-    Mechanism { name, unit, usual, most, hook, lives: &[], group }
-}
 
 /// The driver rings at a harmonic of the modulation: 2, 3 or 5.
 fn correlation_harmonics(flaw: &Flaw, waveform: &Waveform) -> Waveform {

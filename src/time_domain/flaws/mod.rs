@@ -54,6 +54,30 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
+    /// One that the registry has by this name.
+    const fn known(
+        name: &'static str,
+        unit: &'static str,
+        usual: f64,
+        most: f64,
+        hook: Hook,
+        group: char,
+    ) -> Self {
+        Self { name, unit, usual, most, hook, lives: &[], group }
+    }
+
+    /// One that no library has, and the coordinates where it lives.
+    const fn outside(
+        name: &'static str,
+        unit: &'static str,
+        usual: f64,
+        most: f64,
+        hook: Hook,
+        lives: &'static [&'static str],
+    ) -> Self {
+        Self { lives, ..Self::known(name, unit, usual, most, hook, 'x') }
+    }
+
     /// Whether no library has it.
     pub fn is_outside(&self) -> bool {
         !self.lives.is_empty()

@@ -7,30 +7,33 @@ use crate::time_domain::world::{Moment, Ray, World};
 use std::f64::consts::TAU;
 
 pub const MECHANISMS: &[Mechanism] = &[
-    outside("row_banding", "DN", 1.0, 200.0, Hook::Code(row_banding), &["row"]),
-    outside("slow_columns", "rad", 0.05, 1.5, Hook::Ray(slow_columns), &["column", "amplitude"]),
-    outside("code_glitch", "DN", 5.0, 200.0, Hook::Code(code_glitch), &["code"]),
-    outside("second_camera", "DN", 2.0, 200.0, Hook::Ray(second_camera), &["time_s", "frame", "set"]),
-    outside("alternating_gain", "1", 0.01, 0.3, Hook::Clock(alternating_gain), &["set"]),
-    outside("breathing_phase", "rad", 0.01, 0.5, Hook::Clock(breathing_phase), &["time_s", "set"]),
-    outside("post_in_the_beam", "1", 0.05, 0.9, Hook::Ray(post_in_the_beam), &["position_m"]),
-    outside("row_load", "1", 0.01, 0.5, Hook::Image(row_load), &["neighbours", "row"]),
-    outside("encoder_latency", "s", 5e-4, 0.05, Hook::Clock(encoder_latency), &["velocity_m_s", "encoder"]),
-    outside("reset_pulse", "DN", 1.0, 200.0, Hook::Code(reset_pulse), &["frame"]),
-    outside("weak_contrast", "1", 0.02, 0.7, Hook::Ray(weak_contrast), &["amplitude", "code"]),
-    outside("offset_gain", "1", 0.01, 0.5, Hook::Clock(offset_gain), &["phase"]),
+    Mechanism::outside("row_banding", "DN", 1.0, 200.0, Hook::Code(row_banding), &["row"]),
+    Mechanism::outside("slow_columns", "rad", 0.05, 1.5, Hook::Ray(slow_columns), &["column", "amplitude"]),
+    Mechanism::outside("code_glitch", "DN", 5.0, 200.0, Hook::Code(code_glitch), &["code"]),
+    Mechanism::outside(
+        "second_camera",
+        "DN",
+        2.0,
+        200.0,
+        Hook::Ray(second_camera),
+        &["time_s", "frame", "set"],
+    ),
+    Mechanism::outside("alternating_gain", "1", 0.01, 0.3, Hook::Clock(alternating_gain), &["set"]),
+    Mechanism::outside("breathing_phase", "rad", 0.01, 0.5, Hook::Clock(breathing_phase), &["time_s", "set"]),
+    Mechanism::outside("post_in_the_beam", "1", 0.05, 0.9, Hook::Ray(post_in_the_beam), &["position_m"]),
+    Mechanism::outside("row_load", "1", 0.01, 0.5, Hook::Image(row_load), &["neighbours", "row"]),
+    Mechanism::outside(
+        "encoder_latency",
+        "s",
+        5e-4,
+        0.05,
+        Hook::Clock(encoder_latency),
+        &["velocity_m_s", "encoder"],
+    ),
+    Mechanism::outside("reset_pulse", "DN", 1.0, 200.0, Hook::Code(reset_pulse), &["frame"]),
+    Mechanism::outside("weak_contrast", "1", 0.02, 0.7, Hook::Ray(weak_contrast), &["amplitude", "code"]),
+    Mechanism::outside("offset_gain", "1", 0.01, 0.5, Hook::Clock(offset_gain), &["phase"]),
 ];
-
-const fn outside(
-    name: &'static str,
-    unit: &'static str,
-    usual: f64,
-    most: f64,
-    hook: Hook,
-    lives: &'static [&'static str],
-) -> Mechanism {
-    Mechanism { name, unit, usual, most, hook, lives, group: 'x' }
-}
 
 /// Bands of rows that drift as the supply's ripple meets the row clock.
 fn row_banding(flaw: &Flaw, moment: &Moment, world: &World, pixel: usize, code: f64) -> f64 {
