@@ -174,8 +174,7 @@ impl Case {
                 || ["encoder_latency", "timing_jitter_of_frames"].contains(&row.name)
         };
         let world = world(random, mechanisms.iter().any(wants_motion), self.scale);
-        let absent = |name: &str| mechanisms.iter().all(|row| row.name != name);
-        let known = Known { falloff: absent("inverse_square_falloff"), motion: absent("axial_motion") };
+        let known = Known::without(mechanisms.iter().map(|row| row.name));
         let [low, high] = KINDS.iter().find(|row| row.0 == self.kind).map_or([0.0; 2], |row| row.2);
         let draws: Vec<(f64, u64)> =
             mechanisms.iter().map(|_| (low * (high / low).powf(random.random()), random.random())).collect();
@@ -191,11 +190,7 @@ impl Case {
             // There is only one size of what is the world's own.
             let is_own = matches!(mechanism.hook, Hook::Unknown);
             let flaw = if is_own { flaw } else { ruler.sized(&flaw, larger * rho)? };
-            let own = Known {
-                falloff: mechanism.name != "inverse_square_falloff",
-                motion: mechanism.name != "axial_motion",
-            };
-            changes.push(ruler.change(own, &[&flaw]));
+            changes.push(ruler.change(Known::without([mechanism.name]), &[&flaw]));
             found.push(flaw);
         }
         let rhos: Vec<f64> = changes.iter().map(|change| ruler.norm(change)).collect();

@@ -1,6 +1,6 @@
 //! An answer against its label.
 
-use super::label::Label;
+use super::label::{Label, are_same};
 use serde::Deserialize;
 
 /// What an answer is worth.
@@ -103,13 +103,12 @@ pub fn judge(label: &Label, answer: &Answer) -> Outcome {
         return Outcome::Silent;
     }
     let truths = label.right();
-    let near = label.near.iter().map(|names| names.iter().map(String::as_str).collect::<Vec<_>>());
-    let same = |truth: &[&str]| truth.len() == named.len() && truth.iter().all(|name| named.contains(name));
+    let is_named = |names: &Vec<&str>| are_same(names, &named);
     let held = |truth: &[&str]| are_held(&answer.effects, truth);
-    if truths.iter().any(|truth| same(truth)) {
+    if truths.iter().any(is_named) {
         Outcome::Right
     } else if truths.iter().any(|truth| truth.len() == named.len() && held(truth))
-        || near.into_iter().any(|names| same(&names))
+        || label.alike().iter().any(is_named)
     {
         Outcome::Possible
     } else if truths.iter().any(|truth| held(truth)) {

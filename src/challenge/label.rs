@@ -59,7 +59,21 @@ impl Label {
     /// Every set of names that is right.
     pub fn right(&self) -> Vec<Vec<&str>> {
         let own = self.effects.iter().map(|hidden| hidden.name.as_str()).collect();
-        let others = self.or.iter().map(|names| names.iter().map(String::as_str).collect());
-        std::iter::once(own).chain(others).collect()
+        std::iter::once(own).chain(self.or.iter().map(|names| texts(names))).collect()
     }
+
+    /// Every set of names that is possible, as [`Label::near`] has them.
+    pub fn alike(&self) -> Vec<Vec<&str>> {
+        self.near.iter().map(|names| texts(names)).collect()
+    }
+}
+
+/// `names` as they are compared.
+pub fn texts(names: &[String]) -> Vec<&str> {
+    names.iter().map(String::as_str).collect()
+}
+
+/// Whether the sets of names are the same, in whatever order.
+pub fn are_same(one: &[&str], other: &[&str]) -> bool {
+    one.len() == other.len() && one.iter().all(|name| other.contains(name))
 }

@@ -1,6 +1,6 @@
 //! What an observer could say who knows the exact change of every effect: the limit by likelihood ratios.
 
-use super::label::Label;
+use super::label::{Label, are_same, texts};
 use crate::time_domain::{Flaw, Hook, Known, Movie, Ruler, flaws};
 use nalgebra::DMatrix;
 use rand::RngExt;
@@ -28,10 +28,7 @@ pub fn limit(
             Some(flaw) => flaw.clone(),
             None => Flaw::drawn(mechanism, random.random()),
         };
-        let unknown = Known {
-            falloff: mechanism.name != "inverse_square_falloff",
-            motion: mechanism.name != "axial_motion",
-        };
+        let unknown = Known::without([mechanism.name]);
         let is_told = (unknown.falloff || known.falloff) && (unknown.motion || known.motion);
         match mechanism.hook {
             // What the camera's simulation includes is no candidate.
@@ -79,13 +76,8 @@ fn best(products: &DMatrix<f64>) -> Vec<usize> {
 
 /// Whether the limit says exactly what `label` says.
 pub fn is_right(label: &Label) -> bool {
-    let named: Vec<&str> = label.limit.iter().map(String::as_str).collect();
-    let near = label.near.iter().map(|names| names.iter().map(String::as_str).collect());
-    label
-        .right()
-        .into_iter()
-        .chain(near)
-        .any(|names: Vec<&str>| names.len() == named.len() && names.iter().all(|name| named.contains(name)))
+    let named = texts(&label.limit);
+    label.right().iter().chain(&label.alike()).any(|names| are_same(names, &named))
 }
 
 #[cfg(test)]

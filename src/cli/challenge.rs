@@ -5,7 +5,7 @@ use super::progress;
 use crate::artifact::write_file;
 use crate::challenge::{Answer, LabelFile, drawn, entropy, opened, scored, sealed, summary, table};
 use crate::problem::{Problem, Result};
-use crate::recording::write_campaign;
+use crate::recording::{Staging, write_campaign};
 use clap::{Args, Subcommand};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -95,9 +95,7 @@ impl Challenge {
 impl Make {
     fn run(self) -> Result<ExitCode> {
         let out = &self.out;
-        let name = out.file_name().ok_or_else(|| {
-            Problem::in_file(out, "is not a name for a new folder").remedy("give the folder a name")
-        })?;
+        let name = out.file_name().unwrap_or_default();
         let labels_file = self
             .labels
             .clone()
@@ -114,14 +112,8 @@ impl Make {
         }
         let seed = self.seed.unwrap_or_else(entropy);
         let cases = drawn(self.cases as usize, seed, self.tiny);
-        let parent = match out.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
-        let cannot = |error: std::io::Error| Problem::io(out, "write", &error);
-        fs::create_dir_all(parent).map_err(cannot)?;
-        let staging = tempfile::Builder::new().prefix(".vuris-").tempdir_in(parent).map_err(cannot)?;
-        let new = staging.path().join("new");
+        let staging = Staging::beside(out)?;
+        let new = staging.path();
         let labels = progress::steps(cases.len(), |done| {
             cases
                 .par_iter()
@@ -135,9 +127,9 @@ impl Make {
                 .collect::<Result<Vec<_>>>()
         })?;
         let (labels, seals) = sealed(&labels, seed)?;
-        write_file(&new.join(SEALS), &json_text(&seals)?)?;
+        staging.write_text(SEALS, &json_text(&seals)?)?;
         write_file(&labels_file, &json_text(&labels)?)?;
-        fs::rename(&new, out).map_err(cannot)?;
+        staging.publish()?;
         say!("written: {}, {} with {SEALS}", out.display(), counted(cases.len(), "campaign"));
         say!("written: {}", labels_file.display());
         Ok(ExitCode::SUCCESS)

@@ -22,6 +22,7 @@ pub use camera::{AXIAL_MOTION, BASELINE, Camera, INVERSE_SQUARE_FALLOFF, effect_
 pub use kind::Kind;
 pub use npy::{Codes, read as read_npy};
 pub use sets::SetRow;
+pub use staging::Staging;
 pub use write::{write_camera, write_campaign, write_recording, write_recording_with_camera};
 
 use crate::frames::{Geometry, RawSets};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// A folder in the making.
-pub(super) struct Staging {
+pub struct Staging {
     temporary: TempDir,
     new: PathBuf,
     target: PathBuf,
