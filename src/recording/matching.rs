@@ -328,16 +328,9 @@ mod tests {
         let (pipeline, _) = pipeline_for(&narrow, &base, SchemeChoice::Specified).unwrap();
         assert_eq!((pipeline.sensor.adc_bits, pipeline.sensor.saturation_dn), (12, 4000));
         narrow.camera = Some(Camera {
-            geometry: narrow.geometry(),
-            adc_bits: 8,
-            pedestal_dn: 0.0,
-            gain_e_per_dn: 1.0,
-            read_noise_e: 1.0,
             focal_length_px: 33.0,
-            correlation_amplitude: vec![1.0],
-            correlation_phase_rad: vec![0.0],
             included_physics: vec![],
-            effects: Vec::new(),
+            ..Camera::assumed(narrow.geometry(), 8)
         });
         let (pipeline, sentences) = pipeline_for(&narrow, &base, SchemeChoice::Specified).unwrap();
         assert_eq!((pipeline.sensor.adc_bits, pipeline.sensor.saturation_dn), (8, 255));
