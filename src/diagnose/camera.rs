@@ -3,7 +3,9 @@
 use super::columns::Column;
 use super::data::Data;
 use super::fit::Fit;
+use super::gram::Noise;
 use super::judge::Judgement;
+use super::noise::ROUNDING_DN2;
 use crate::recording::{BASELINE, Camera};
 
 /// Closer to 1, in standard deviations, a share is 1.
@@ -12,6 +14,12 @@ const WHOLE_SIGMAS: f64 = 4.0;
 /// The camera of `data`, with the effects that `judgement` asserts and their fitted values.
 pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
     let mut camera = data.described.clone();
+    // What nobody has described is what was measured.
+    if data.assumed.camera && judgement.noise.slope > 0.0 {
+        let Noise { floor, slope, .. } = judgement.noise;
+        camera.gain_e_per_dn = slope.recip();
+        camera.read_noise_e = (floor - ROUNDING_DN2).max(0.0).sqrt() / slope;
+    }
     let named = |name: &str| judgement.named.iter().any(|named| named.name == name);
     let Fit { pieces, columns, sigma, .. } = &judgement.fit;
     for (number, piece) in pieces.iter().enumerate().filter(|(_, piece)| named(piece.effect.name)) {

@@ -129,9 +129,25 @@ fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
 const ITERATIONS: usize = 12;
 /// A step that would lower chi squared by less is none: a standard deviation of one number is 1.
 const ENOUGH: f64 = 0.1;
-/// Of a step that makes the sum of squares so many times greater, a smaller share is taken.
+/// A step that makes the sum of squares so many times greater is damped (Levenberg 1944, Marquardt 1963).
 const WORSE: f64 = 1.01;
-const SHARES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+const DAMPINGS: [f64; 6] = [0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0];
+
+/// Where the sum of squares is so many times the samples, the pixels' own numbers are settled before a step is judged.
+const FAR: f64 = 1.5;
+
+/// The pixels with their own numbers as they fit best, but for what their tangents leave, beside `pieces` as they are.
+pub fn settled(
+    data: &Data,
+    pixels: &Arc<Pixels>,
+    pieces: &[Piece],
+    noise: Noise,
+    counts: &(dyn Fn(usize) -> bool + Sync),
+) -> Arc<Pixels> {
+    let known: Vec<Piece> = pieces.iter().map(|piece| Piece { free: Vec::new(), ..piece.clone() }).collect();
+    let round = Round::new(data, pixels, &known, noise, counts);
+    Arc::new(moved(pixels, &round.projected.own(&round.theta)))
+}
 
 /// Fits `pieces` from their values on, with the pixels of `from` or from scratch, to the sets of which `counts` is true.
 pub fn fit(
@@ -149,8 +165,11 @@ pub fn fit(
         if round.gain < ENOUGH {
             break;
         }
-        let stepped = SHARES.into_iter().find_map(|share| {
-            let (pixels, pieces) = round.step(&pixels, pieces.clone(), share);
+        let stepped = DAMPINGS.into_iter().find_map(|damping| {
+            let (mut pixels, pieces) = round.step(&pixels, pieces.clone(), damping);
+            if round.square > FAR * round.samples as f64 {
+                pixels = settled(data, &pixels, &pieces, noise, counts);
+            }
             let there = Round::new(data, &pixels, &pieces, noise, counts);
             (there.square <= WORSE * round.square).then_some((pixels, pieces, there))
         });
@@ -173,7 +192,7 @@ pub fn improved(
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> (Arc<Pixels>, Vec<Piece>) {
-    Round::new(data, &fit.pixels, &fit.pieces, noise, counts).step(&fit.pixels, fit.pieces.clone(), 1.0)
+    Round::new(data, &fit.pixels, &fit.pieces, noise, counts).step(&fit.pixels, fit.pieces.clone(), 0.0)
 }
 
 /// The normal equations around a model, solved.
@@ -202,21 +221,25 @@ impl Round {
         let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
         let (gram, series) = Gram::visited(data, &tangents, noise, counts, &visit, &Series::and);
         let projected = gram.project(None);
-        let (theta, sigma) = step(&projected, &reaches(&columns, pieces));
+        let (theta, sigma) = bounded_step(&projected, &columns, pieces, pixels.full_scale_dn, 0.0);
         let gain = projected.settled + theta.dot(&projected.vector);
         Self { columns, projected, theta, sigma, gain, square: gram.chi2, samples: gram.samples, series }
     }
 
-    /// `pixels` and `pieces`, moved by this `share` of the step.
-    fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>, share: f64) -> (Arc<Pixels>, Vec<Piece>) {
-        let pixels = Arc::new(moved(pixels, &self.projected.own(&self.theta), share));
-        for (column, step) in self.columns.iter().zip(self.theta.iter()) {
+    /// `pixels` and `pieces`, moved by the step with so much `damping`.
+    fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>, damping: f64) -> (Arc<Pixels>, Vec<Piece>) {
+        let damped =
+            || bounded_step(&self.projected, &self.columns, &pieces, pixels.full_scale_dn, damping).0;
+        let theta = if damping > 0.0 { damped() } else { self.theta.clone() };
+        let pixels = Arc::new(moved(pixels, &self.projected.own(&theta)));
+        for (column, step) in self.columns.iter().zip(theta.iter()) {
             let piece = &mut pieces[column.piece];
             let parameter = &piece.effect.parameters[column.parameter];
             let value = &mut piece.values[column.parameter];
             // A shape moves by a third of itself at most: its tangent holds nearby.
             let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
-            *value = (*value + share * step.clamp(-most, most)).clamp(parameter.bounds.0, parameter.bounds.1);
+            let (low, high) = parameter.bounds_within(pixels.full_scale_dn);
+            *value = (*value + step.clamp(-most, most)).clamp(low, high);
         }
         free_shapes(&mut pieces);
         (pixels, pieces)
@@ -247,17 +270,43 @@ fn reaches(columns: &[Column], pieces: &[Piece]) -> Vec<f64> {
     columns.iter().map(|column| pieces[column.piece].effect.parameters[column.parameter].reach()).collect()
 }
 
-/// The step to the minimum, and the standard deviations there. That no number goes beyond its `reach` is known beforehand.
-fn step(projected: &Projected, reach: &[f64]) -> (DVector<f64>, Vec<f64>) {
+/// The step to the minimum, and the standard deviations there, for numbers that stay within their bounds: one that is at a bound and would
+/// go beyond stays where it is, and is known.
+fn bounded_step(
+    projected: &Projected,
+    columns: &[Column],
+    pieces: &[Piece],
+    full_scale_dn: f64,
+    damping: f64,
+) -> (DVector<f64>, Vec<f64>) {
+    let mut reach = reaches(columns, pieces);
+    loop {
+        let (theta, sigma) = step(projected, &reach, damping);
+        let goes_beyond = |number: &usize| {
+            let piece = &pieces[columns[*number].piece];
+            let parameter = columns[*number].parameter;
+            let (low, high) = piece.effect.parameters[parameter].bounds_within(full_scale_dn);
+            let (value, step) = (piece.values[parameter], theta[*number]);
+            reach[*number] > 0.0 && (step < 0.0 && value <= low || step > 0.0 && value >= high)
+        };
+        let Some(held) = (0..columns.len()).find(goes_beyond) else { return (theta, sigma) };
+        reach[held] = 0.0;
+    }
+}
+
+/// The step to the minimum, and the standard deviations there. That no number goes beyond its `reach` is known beforehand; one without any
+/// stays where it is.
+fn step(projected: &Projected, reach: &[f64], damping: f64) -> (DVector<f64>, Vec<f64>) {
     let size = projected.vector.len();
     if size == 0 {
         return (DVector::zeros(0), Vec::new());
     }
     let known = |c: usize| projected.matrix[(c, c)].max(0.0) + reach[c].powi(-2);
-    let scale = DVector::from_fn(size, |c, _| known(c).sqrt().recip());
+    let scale = DVector::from_fn(size, |c, _| if reach[c] > 0.0 { known(c).sqrt().recip() } else { 0.0 });
     let scaled = DMatrix::from_fn(size, size, |row, column| {
-        let value = if row == column { known(row) } else { projected.matrix[(row, column)] };
-        value * scale[row] * scale[column]
+        let value =
+            if row == column { (1.0 + damping) * known(row) } else { projected.matrix[(row, column)] };
+        if reach[row] > 0.0 && reach[column] > 0.0 { value * scale[row] * scale[column] } else { 0.0 }
     });
     let eigen = scaled.symmetric_eigen();
     let kept = eigen.eigenvalues.map(|value| if value > 1e-6 { value.recip() } else { 0.0 });
@@ -268,9 +317,9 @@ fn step(projected: &Projected, reach: &[f64]) -> (DVector<f64>, Vec<f64>) {
 }
 
 /// The pixels with their own numbers moved.
-fn moved(pixels: &Pixels, own: &[Vector4<f64>], share: f64) -> Pixels {
+fn moved(pixels: &Pixels, own: &[Vector4<f64>]) -> Pixels {
     let mut moved = pixels.clone();
-    for (pixel, step) in own.iter().map(|step| share * step).enumerate() {
+    for (pixel, step) in own.iter().enumerate() {
         moved.amplitude_1m_dn[pixel] += step[0];
         moved.phase_rad[pixel] += step[1];
         moved.constant_1m_dn[pixel] += step[2];

@@ -6,14 +6,15 @@
 
 use super::columns::Tangents;
 use super::data::{Data, Take};
-use super::fit::{Fit, improved};
+use super::fit::{Fit, fit, improved, settled};
 use super::gram::{Noise, whiten};
-use super::pieces::Piece;
+
 use crate::spec::SCHEMES;
 use crate::units::phase_rad;
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Agreement of a prediction with the recordings.
 #[derive(Debug, Clone, Copy, Default)]
@@ -113,16 +114,18 @@ fn agreement(sets: &[Seen]) -> Agreement {
 /// Halves of the image times every other frame.
 const PARTS: usize = 4;
 
+/// How often pixels are settled where parameters are known.
+const SETTLING: usize = 3;
+
 /// A half of the image in every other frame: `(a number of its own for each set, what it shows)`.
-fn predicted_frames(data: &Data, fit: &Fit, noise: Noise, part: usize) -> Vec<(usize, Seen)> {
+fn predicted_frames(data: &Data, of: &Fit, noise: Noise, part: usize) -> Vec<(usize, Seen)> {
     let (half, odd) = (part / 2, part % 2);
     let half_of = |pixel: usize| 2 * pixel / data.pixels().max(1);
     let elsewhere = data.only(|_, pixel| half_of(pixel) != half);
-    let (_, learned) = improved(&elsewhere, fit, noise, &|_| true);
-    let pieces = learned.into_iter().map(|piece| Piece { free: Vec::new(), ..piece }).collect();
-    let fixed = Fit { pieces, ..fit.clone() };
+    let pieces = fit(&elsewhere, Some(of), of.pieces.clone(), noise, &|_| true).pieces;
     let between = data.only(|frame, pixel| half_of(pixel) == half && frame % 2 != odd);
-    let (pixels, pieces) = improved(&between, &fixed, noise, &|_| true);
+    let settle = |pixels, _| settled(&between, &pixels, &pieces, noise, &|_| true);
+    let pixels = (0..SETTLING).fold(Arc::clone(&of.pixels), settle);
     let held = data.only(|frame, pixel| half_of(pixel) == half && frame % 2 == odd);
     let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
     let sets = data.sets().into_iter().enumerate();

@@ -6,7 +6,7 @@ use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
 use super::location::{Located, Location, locate};
 use super::pieces::{Piece, tolerance};
-use super::search::{Found, Named, search};
+use super::search::{DISBELIEF, Found, Named, search};
 use crate::physics::effects;
 
 /// Evidence (nats) from which on a coordinate counts as located.
@@ -19,8 +19,6 @@ const USUAL_JITTER_M: f64 = 0.5e-3;
 const ORDERED_SHARE: f64 = 0.2;
 /// How often the noise is corrected.
 const NOISE_STEPS: usize = 3;
-/// A form may leave so many times its tolerance before it is not believed.
-const DISBELIEF: f64 = 3.0;
 
 /// Where a mismatch lives.
 #[derive(Debug, Clone)]
@@ -121,8 +119,11 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // Of two that were found together it is that of both.
     evidences.dedup();
     let together: f64 = evidences.iter().sum();
-    let simpler =
-        found.named.len() > 1 && baseline.columns.first().is_some_and(|best| best.ln_bayes > together);
+    // Far from the baseline its columns promise more than there is.
+    let is_far = explained > found.baseline.samples as f64;
+    let simpler = found.named.len() > 1
+        && !is_far
+        && baseline.columns.first().is_some_and(|best| best.ln_bayes > together);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
     if let Some((name, cluster)) = random {

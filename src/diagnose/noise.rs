@@ -12,7 +12,7 @@ const GROUPS: usize = 24;
 /// Median of the square of a standard normal deviate.
 const MEDIAN_SQUARE: f64 = 0.454_936;
 /// Variance of rounding to a code, DN².
-const ROUNDING_DN2: f64 = 1.0 / 12.0;
+pub const ROUNDING_DN2: f64 = 1.0 / 12.0;
 
 /// Variance over signal from half the squared differences of neighbours' residuals in a row: what both share (an effect, as a rule)
 /// drops out. Medians, so that dead pixels and edges say little.

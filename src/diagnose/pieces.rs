@@ -153,7 +153,10 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     };
     let (strengths, instead) = (strengths(false), strengths(true));
     let mut variants = Vec::new();
-    for &value in found.unwrap_or(shapes) {
+    let full_scale_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
+    let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
+    let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));
+    for &value in found.unwrap_or(shapes).iter().filter(is_within) {
         let mut values = effect.off();
         if let Some(shape) = shape {
             values[shape] = value;

@@ -6,7 +6,7 @@ use super::evidence::{Block, Evidence, Model, is_seen};
 use super::fit::{Fit, fit};
 use super::gram::{Gram, Noise};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Less evidence than this (nats) asserts nothing.
 pub const THRESHOLD: f64 = 1.0;
@@ -16,12 +16,19 @@ const RIVAL_NATS: f64 = 3.0;
 const CLEAR_NATS: f64 = 8.0;
 /// It explains at least this share of that.
 const TRUSTED_SHARE: f64 = 0.03;
+/// A form may leave so many times its tolerance before it is not believed.
+pub const DISBELIEF: f64 = 3.0;
 const MOST_EFFECTS: usize = 4;
 /// Where the tangents need not hold, effects whose score is at least this share of the best one's are fitted before one is chosen.
 const LEADING_SHARE: f64 = 0.8;
 const MOST_LEADERS: usize = 5;
+/// The same where the mismatch is greater than the noise: there tangents say little of what a fit will.
+const FAR_SHARE: f64 = 0.25;
+const MOST_FAR_LEADERS: usize = 8;
 /// Without a camera's description much is left out at once: so much of what their forms may leave keeps further effects out.
 const UNDESCRIBED: f64 = 0.1;
+/// How often a fit is begun anew where the first one was.
+const COMPLETING: usize = 4;
 /// An effect without which chi squared, halved, rises by less than this and one more for each of its numbers was not needed.
 const NEEDED_NATS: f64 = 6.0;
 /// Beyond so much evidence (nats) the tangents at the baseline need not hold at the fit.
@@ -151,11 +158,14 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
     let mut current = baseline.clone();
     let mut named: Vec<Named> = Vec::new();
     let mut first: Option<Pass> = None;
-    let share = if data.assumed.camera { UNDESCRIBED } else { 1.0 };
+    let samples = baseline.samples as f64;
     loop {
         let candidates = candidates(data, &current.series);
         let pass = pass(data, &current, &candidates, noise, None);
-        let next = pass.next(share * tolerated(&named), trust);
+        // Far from the baseline forms are not that well known.
+        let is_far = baseline.chi2 - current.chi2 > samples;
+        let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
+        let next = pass.next(share * tolerated(&named), trust && !is_far);
         first.get_or_insert_with(|| {
             alone = pass.alone(&candidates);
             pass.clone()
@@ -171,26 +181,42 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
             let pieces = current.pieces.iter().cloned().chain(more).collect();
             fit(data, Some(&current), pieces, noise, &|_| true)
         };
-        let leaders = pass.leaders(&whole);
-        let (best, fitted) = if leaders.len() < 2 {
-            let fitted = with(&best.blocks);
-            (best, fitted)
-        } else {
-            let fits = leaders.into_iter().map(|block| (block, with(&[block])));
-            let (best, fitted, near) = pass.fittest(current.chi2, fits, &candidates);
-            rivals.extend(near);
-            rivals.retain(|rival| rival != pass.name(best.blocks[0], &candidates));
-            (best, fitted)
+        let is_far = pass.is_far(&whole, current.samples);
+        let leaders = pass.leaders(&whole, is_far);
+        let fits = leaders.into_iter().map(|block| (block, with(&[block])));
+        let (best, fitted) = match pass.fittest(current.chi2, fits, &candidates, is_far) {
+            Some((single, fitted, near)) => {
+                rivals.extend(near);
+                rivals.retain(|rival| rival != pass.name(single.blocks[0], &candidates));
+                if is_far {
+                    let complete = completed(data, fitted.clone(), noise);
+                    let ln_bayes = single.ln_bayes + 0.5 * (fitted.chi2 - complete.chi2);
+                    (Model { ln_bayes, ..single }, complete)
+                } else {
+                    (single, fitted)
+                }
+            }
+            None => {
+                let fitted = with(&best.blocks);
+                (best, fitted)
+            }
         };
         rivals.extend(pass.near(&best, &candidates));
         let mut known = BTreeSet::new();
         rivals.retain(|rival| known.insert(rival.clone()));
+        let gain = current.chi2 - fitted.chi2;
+        // What its tangents promise, and its form cannot keep.
+        if gain < 2.0 * THRESHOLD {
+            break;
+        }
+        // Of one alone it is known what it explains.
+        let explained = |chi2: f64| if best.blocks.len() == 1 { gain } else { chi2.min(gain) };
         for &block in &best.blocks {
             let block_of = &pass.blocks[block];
             named.push(Named {
                 name: candidates[block_of.candidate].effect.name,
                 ln_bayes: best.ln_bayes,
-                score: pass.scores[block].unwrap_or((0.0, 0)),
+                score: pass.scores[block].map_or((0.0, 0), |(chi2, degrees)| (explained(chi2), degrees)),
                 rivals: rivals.clone(),
             });
         }
@@ -199,6 +225,27 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
     drop_needless(data, noise, &mut current, &mut named);
     let first = first.unwrap_or_default();
     Found { baseline, fit: current, named, invisible: first.invisible, detectable: first.detectable, alone }
+}
+
+/// `fit`, or, where it says with one number what others say in another way, a fit with all of them, if that is better: far from the
+/// baseline neither needs to say all.
+fn completed(data: &Data, fitted: Fit, noise: Noise) -> Fit {
+    let mut pieces = fitted.pieces.clone();
+    for piece in &mut pieces {
+        let parameters = piece.effect.parameters;
+        if piece.free.iter().any(|&number| parameters[number].is_instead) {
+            piece.free = (0..parameters.len()).filter(|&number| !parameters[number].is_choice).collect();
+        }
+    }
+    let more: usize = pieces.iter().zip(&fitted.pieces).map(|(a, b)| a.free.len() - b.free.len()).sum();
+    if more == 0 {
+        return fitted;
+    }
+    // Numbers that say nearly the same come to their end slowly.
+    let further = |from: Fit, _| fit(data, Some(&from), from.pieces.clone(), noise, &|_| true);
+    let complete = (1..COMPLETING).fold(fit(data, Some(&fitted), pieces, noise, &|_| true), further);
+    let gain = 0.5 * (fitted.chi2 - complete.chi2);
+    if gain > NEEDED_NATS + more as f64 { complete } else { fitted }
 }
 
 /// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.
@@ -225,30 +272,46 @@ impl Pass {
         candidates[self.blocks[block].candidate].effect.name
     }
 
-    /// Blocks that may be the best one when they are fitted; none where `best` is a pair, whose strongest member is the one that fits best
-    /// beside the other, and `best` alone where its tangents hold.
-    fn leaders(&self, best: &Model) -> Vec<usize> {
+    /// Whether what `best` explains of so many `samples` is more than their noise.
+    fn is_far(&self, best: &Model, samples: usize) -> bool {
+        let scores = best.blocks.iter().filter_map(|&block| self.scores[block]);
+        scores.map(|score| score.0).fold(0.0, f64::max) > samples as f64
+    }
+
+    /// Blocks that may be the best one when they are fitted, if there is any doubt which. None where `best` is a pair, whose strongest
+    /// member is the one that fits best beside the other, unless tangents say little because the mismatch `is_far` above the noise.
+    fn leaders(&self, best: &Model, is_far: bool) -> Vec<usize> {
         let score = |block: usize| self.scores[block].map_or(0.0, |(chi2, _)| chi2);
-        let [block] = best.blocks[..] else { return Vec::new() };
-        if self.singles[block] < STRONG_NATS {
-            return vec![block];
+        let single = |a: &usize, b: &usize| self.singles[*b].total_cmp(&self.singles[*a]);
+        let Some(&strongest) = best.blocks.iter().min_by(|a, b| single(a, b)) else { return Vec::new() };
+        if self.singles[strongest] < STRONG_NATS || best.blocks.len() > 1 && !is_far {
+            return Vec::new();
         }
-        let enough = LEADING_SHARE * score(block);
+        let (share, most) =
+            if is_far { (FAR_SHARE, MOST_FAR_LEADERS) } else { (LEADING_SHARE, MOST_LEADERS) };
         let mut leaders: Vec<usize> =
-            (0..self.blocks.len()).filter(|&block| score(block) >= enough).collect();
-        leaders.sort_by(|&a, &b| self.singles[b].total_cmp(&self.singles[a]));
-        leaders.truncate(MOST_LEADERS);
-        leaders
+            (0..self.blocks.len()).filter(|&block| score(block) >= share * score(strongest)).collect();
+        leaders.sort_by(single);
+        // Two ways of each effect to be there.
+        let mut ways = BTreeMap::<usize, usize>::new();
+        leaders.retain(|&block| {
+            let ways = ways.entry(self.blocks[block].candidate).or_default();
+            *ways += 1;
+            !is_far || *ways <= 2
+        });
+        leaders.truncate(most);
+        if leaders.len() < 2 { Vec::new() } else { leaders }
     }
 
     /// Of blocks and their fits, to data whose chi squared was `before`: the best one, with its fit, and the effects that come as near as
-    /// its form can be trusted.
+    /// its form can be trusted; nothing where there are none.
     fn fittest(
         &self,
         before: f64,
         fits: impl Iterator<Item = (usize, Fit)>,
         candidates: &[Candidate],
-    ) -> (Model, Fit, Vec<String>) {
+        is_far: bool,
+    ) -> Option<(Model, Fit, Vec<String>)> {
         let judged = |(block, fit): (usize, Fit)| {
             let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);
             let gain = before - fit.chi2 - fit.unreached;
@@ -256,13 +319,27 @@ impl Pass {
         };
         let mut judged: Vec<(f64, usize, Fit)> = fits.map(judged).collect();
         judged.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let (ln_bayes, block, fit) = judged.remove(0);
+        // Far from the baseline no form is exact: of those that explain about as much as the best one, the simplest.
+        let explained = |(_, _, fit): &(f64, usize, Fit)| before - fit.chi2 - fit.unreached;
+        let most = explained(judged.first()?);
+        let believed = |judged: &(f64, usize, Fit)| {
+            let left = DISBELIEF * tolerance(self.name(judged.1, candidates));
+            explained(judged) > (1.0 - left) * most
+        };
+        let numbers = |judged: &(f64, usize, Fit)| judged.2.columns.len();
+        let place = if is_far {
+            let believed = (0..judged.len()).filter(|&place| believed(&judged[place]));
+            believed.min_by_key(|&place| numbers(&judged[place])).unwrap_or(0)
+        } else {
+            0
+        };
+        let (ln_bayes, block, fit) = judged.remove(place);
         // What its form may leave does not tell it from others either.
         let form = 0.5 * tolerance(self.name(block, candidates)) * (before - fit.chi2);
         let least = ln_bayes - form.max(RIVAL_NATS);
         let near = judged.iter().filter(|other| other.0 > least).map(|other| self.name(other.1, candidates));
         let near = near.map(str::to_owned).collect();
-        (Model { blocks: vec![block], ln_bayes }, fit, near)
+        Some((Model { blocks: vec![block], ln_bayes }, fit, near))
     }
 
     /// Of a clear single effect: others that explain as much by no more numbers, but for what its form may leave.

@@ -59,6 +59,15 @@ impl Parameter {
         Self { is_choice: true, typical: last, ..Self::shape(name, unit, first, (first, last), shapes) }
     }
 
+    /// Least and greatest value where signals go up to `full_scale_dn`: what repeats with the code does so twice at least.
+    pub fn bounds_within(&self, full_scale_dn: f64) -> (f64, f64) {
+        let (low, high) = self.bounds;
+        if self.is_shape() && self.name == "period_dn" {
+            return (low.min(full_scale_dn / 2.0), high.min(full_scale_dn / 2.0));
+        }
+        (low, high)
+    }
+
     /// How far from off it may be.
     pub fn reach(&self) -> f64 {
         (self.bounds.1 - self.off).max(self.off - self.bounds.0)

@@ -7,11 +7,11 @@ use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 pub static EFFECT: Effect = Effect {
     name: "intensity_nonlinearity",
     sentence: "The pixel's response is not linear in the light, so harmonics appear that grow with the amplitude.",
-    reference: "I -> I + alpha I^2 + beta I^3; I -> I^(1 + gamma)",
+    reference: "I -> I + alpha I^2 + beta I^3; I -> I0 (I / I0)^(1 + gamma), I0 a quarter of full scale",
     parameters: &[
         Parameter::strength("quadratic", "1", 0.0, (-0.6, 0.6), 0.02),
         Parameter::strength("cubic", "1", 0.0, (-0.6, 0.6), 0.02),
-        Parameter::strength("exponent", "1", 0.0, (-0.6, 2.0), 0.02).instead(),
+        Parameter::strength("exponent", "1", 0.0, (-0.6, 4.0), 0.02).instead(),
     ],
     place: Place::Readout,
     chance: Chance::None,
@@ -19,13 +19,16 @@ pub static EFFECT: Effect = Effect {
     act: Act::Code(act),
 };
 
+/// Signal that a power leaves as it is, over full scale: a usual one, so that a pixel's own light hardly depends on the exponent.
+const UNMOVED: f64 = 0.25;
+
 fn act(values: &[f64], exposure: &mut Exposure) {
     let full_scale_dn = exposure.pixels.full_scale_dn;
     let exponent = values[2];
     for signal in &mut exposure.signal_dn {
         // No light is no light by any power.
         if exponent != 0.0 && *signal > 0.0 {
-            *signal *= libm::pow(*signal / full_scale_dn, exponent);
+            *signal *= libm::pow(*signal / (UNMOVED * full_scale_dn), exponent);
         }
         let share = *signal / full_scale_dn;
         *signal += *signal * share * (values[0] + values[1] * share);
