@@ -16,5 +16,6 @@ linked flimfast frames.npy
 ) | put "$PAGE" recording
 shown diagnose "$OUT/flimfast" --json "$OUT/flimfast.json" --report "$OUT/flimfast.html" | put "$PAGE" diagnosis
 python3 scripts/pages/settings.py "$OUT/flimfast.json" | put "$PAGE" settings
+python3 scripts/pages/fading.py "$OUT/flimfast" "$OUT/flimfast.json" | put "$PAGE" fading
 python3 scripts/pages/picture.py "$OUT/flimfast.html" "frame of a set" docs/images/flimfast-frames.svg
 python3 scripts/pages/picture.py "$OUT/flimfast.html" "row" docs/images/flimfast-rows.svg

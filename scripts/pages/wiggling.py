@@ -6,30 +6,13 @@ difference that has CYCLES cycles a turn, and the RMS of the difference with and
 amplitude is at least LEAST_DN in both. The mean difference is taken away.
 """
 
-import array
-import ast
 import cmath
 import math
-import struct
 import sys
 
+import npy
+
 LEAST_DN = 10.0
-
-
-def numbers(path):
-    """The numbers of a .npy file of version 1 in little-endian floating point."""
-    with open(path, "rb") as file:
-        magic, version = file.read(6), file.read(2)
-        if magic != b"\x93NUMPY" or version[0] != 1:
-            sys.exit(f"wiggling.py: {path} is no .npy file of version 1")
-        (length,) = struct.unpack("<H", file.read(2))
-        header = ast.literal_eval(file.read(length).decode("latin1"))
-        code = {"<f8": "d", "<f4": "f"}.get(header["descr"])
-        if code is None:
-            sys.exit(f"wiggling.py: {path} has numbers of type {header['descr']}; expected <f4 or <f8")
-        values = array.array(code)
-        values.frombytes(file.read())
-        return values
 
 
 def rms(values):
@@ -38,8 +21,8 @@ def rms(values):
 
 def main():
     many, few, cycles = sys.argv[1], sys.argv[2], int(sys.argv[3])
-    phases = [numbers(f"{folder}/reference_phase_turns.npy") for folder in (many, few)]
-    amplitudes = [numbers(f"{folder}/reference_amplitude_dn.npy") for folder in (many, few)]
+    phases = [npy.read(f"{folder}/reference_phase_turns.npy")[1] for folder in (many, few)]
+    amplitudes = [npy.read(f"{folder}/reference_amplitude_dn.npy")[1] for folder in (many, few)]
     pairs = []
     for one, other, strong, also in zip(*phases, *amplitudes):
         if strong >= LEAST_DN and also >= LEAST_DN:
