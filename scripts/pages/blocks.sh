@@ -6,6 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 VURIS=$(realpath "${1:-target/release/vuris}")
 WORK=target/pages
+export PYTHONDONTWRITEBYTECODE=1
 
 fail() {
   echo "$(basename "$0"): $1" >&2
