@@ -31,6 +31,7 @@ put() {
   grep -qxF "<!-- printed: $name -->" "$page" || fail "$page has no block $name"
   printed=$(mktemp)
   tee "$printed"
+  [[ -s $printed ]] || fail "nothing was printed for $name; $page stays as it was"
   awk -v begin="<!-- printed: $name -->" -v printed="$printed" '
     inside && $0 == "<!-- end -->" { inside = 0 }
     !inside { print }

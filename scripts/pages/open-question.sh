@@ -41,6 +41,7 @@ LARGE_NON_LINEAR=(--effect intensity_nonlinearity:quadratic=0.5,cubic=0.6)
 
 simulate falloff "$CAMERA" "${FALLOFF[@]}" | put "$PAGE" simulate
 simulate nothing "$CAMERA" >/dev/null
+for seed in 1 2 3; do simulate "nothing-$seed" "$CAMERA" --seed "$seed" >/dev/null; done
 simulate multi-path "$CAMERA" "${MULTI_PATH[@]}" >/dev/null
 simulate non-linear "$CAMERA" "${NON_LINEAR[@]}" >/dev/null
 simulate falloff-multi-path "$CAMERA" "${FALLOFF[@]}" "${MULTI_PATH[@]}" >/dev/null
@@ -61,14 +62,17 @@ cp "$OUT/falloff/camera.toml" "$OUT/unknown-phases/camera.toml"
 diagnose falloff/four-motion falloff-motion | put "$PAGE" motion
 diagnose falloff falloff | put "$PAGE" all
 
-NAMES=(nothing multi-path non-linear falloff-multi-path falloff-non-linear large-multi-path large-non-linear unknown-phases)
+NAMES=(nothing nothing-1 nothing-2 nothing-3 multi-path non-linear falloff-multi-path falloff-non-linear
+  large-multi-path large-non-linear unknown-phases)
 for name in "${NAMES[@]}"; do
   diagnose "$name/four-motion" "$name-motion" >/dev/null
   diagnose "$name" "$name" >/dev/null
 done
 
 verdicts() { # suffix of the file names
-  python3 scripts/pages/verdicts.py "nothing=$OUT/nothing$1.json" "falloff=$OUT/falloff$1.json" \
+  python3 scripts/pages/verdicts.py "nothing=$OUT/nothing$1.json" "nothing, seed 1=$OUT/nothing-1$1.json" \
+    "nothing, seed 2=$OUT/nothing-2$1.json" "nothing, seed 3=$OUT/nothing-3$1.json" \
+    "falloff=$OUT/falloff$1.json" \
     "multi-path=$OUT/multi-path$1.json" "non-linear pixel=$OUT/non-linear$1.json" \
     "falloff and multi-path=$OUT/falloff-multi-path$1.json" \
     "falloff and non-linear pixel=$OUT/falloff-non-linear$1.json" \

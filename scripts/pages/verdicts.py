@@ -9,12 +9,12 @@ import json
 import sys
 
 CANDIDATES = ["inverse_square_falloff", "multipath_interference", "intensity_nonlinearity"]
-MOST = 2  # numbers of an effect
+MOST = 3  # numbers of an effect
 
 
 def number(parameter):
     unit = "" if parameter["unit"] == "1" else f" {parameter['unit']}"
-    return f"{parameter['name']} {parameter['value']:.4f} ± {parameter['sigma']:.4f}{unit}"
+    return f"{parameter['name']} {parameter['value']:.5f} ± {parameter['sigma']:.5f}{unit}"
 
 
 def named(effect):
