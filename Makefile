@@ -71,7 +71,7 @@ proof: build ## two hundred blind campaigns of a second generator: made, answere
 	@date -u +%F
 	$(VURIS) challenge score $(PROOF) --labels $(PROOF)-labels.json --json $(PROOF)-score.json
 
-open-question: build ## the paper's open question asked of the diagnosis: docs/open-question.md anew (five minutes)
+open-question: build ## the paper's open question asked of the diagnosis: docs/open-question.md anew (eight minutes)
 	bash scripts/pages/open-question.sh $(VURIS)
 
 # The recordings are not part of this repository; VURIS_REAL names the folder that has them.
