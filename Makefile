@@ -8,10 +8,10 @@ VURIS := $(or $(CARGO_TARGET_DIR),target)/release/vuris
 unexport MAKEFLAGS MFLAGS
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove study proof picture clean
+.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove study proof open-question real-pages picture clean
 
 help:      ## this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 
 setup:     ## find the tools, install what is missing (bash scripts/setup.sh --check only looks)
 	@bash scripts/setup.sh
@@ -70,6 +70,14 @@ proof: build ## two hundred blind campaigns of a second generator: made, answere
 	$(VURIS) challenge answer $(PROOF)
 	@date -u +%F
 	$(VURIS) challenge score $(PROOF) --labels $(PROOF)-labels.json --json $(PROOF)-score.json
+
+open-question: build ## the paper's open question asked of the diagnosis: docs/open-question.md anew (eight minutes)
+	bash scripts/pages/open-question.sh $(VURIS)
+
+# The recordings are not part of this repository; VURIS_REAL names the folder that has them.
+real-pages: build ## real recordings diagnosed: docs/real-*.md anew (VURIS_REAL=DIR with flimfast/ and cfpe/)
+	bash scripts/pages/flimfast.sh $(VURIS)
+	bash scripts/pages/cfpe.sh $(VURIS)
 
 picture: setup build ## draw the pictures in docs/images anew
 	$(VURIS) scene --out docs/images

@@ -53,7 +53,7 @@ fn the_hardware_notes_list_the_result_words_fields() {
 }
 
 /// Of the tables that `vuris paper` prints, the README has the paper's numbers and the open question, docs/paper.md the rivals against
-/// lateral motion. All that is drawn is seeded.
+/// lateral motion, docs/open-question.md the candidates. All that is drawn is seeded.
 #[test]
 fn the_readme_shows_the_papers_tables() {
     let output = Command::cargo_bin("vuris").unwrap().arg("paper").output().unwrap();
@@ -61,9 +61,11 @@ fn the_readme_shows_the_papers_tables() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
     let notes = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/paper.md")).unwrap();
+    let question = text("docs/open-question.md");
     for (title, shown, name) in [
         ("## The paper's numbers", &readme, "README"),
         ("## The open question", &readme, "README"),
+        ("## The paper's candidates", &question, "docs/open-question.md"),
         ("## Rivals against lateral motion", &notes, "docs/paper.md"),
     ] {
         let section = &printed[printed.find(title).expect("the table is printed")..];

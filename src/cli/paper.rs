@@ -4,7 +4,7 @@ use super::print::say;
 use super::progress;
 use crate::artifact::{Artifact, write};
 use crate::paper::camera::Method;
-use crate::paper::{Table, figures, open_question_table, quantities, rivals, table_1};
+use crate::paper::{Table, candidates_table, figures, open_question_table, quantities, rivals, table_1};
 use crate::problem::Result;
 use crate::report::{figure_csv, figure_picture, markdown_table, quantities_table, table_csv};
 use clap::Args;
@@ -40,8 +40,12 @@ impl Paper {
 
 fn tables() -> Result<Vec<Table>> {
     let methods = Method::both()?;
-    let mut tables =
-        vec![quantities_table(&quantities(&methods)), table_1::table(), open_question_table(&methods)];
+    let mut tables = vec![
+        quantities_table(&quantities(&methods)),
+        table_1::table(),
+        open_question_table(&methods),
+        candidates_table(&methods),
+    ];
     tables.extend(rivals::tables()?);
     Ok(tables)
 }

@@ -11,7 +11,7 @@ use crate::bench::{
 use crate::frames::Geometry;
 use crate::physics::{Active, Chain, Correlation, EFFECTS, FREQUENCY_HZ, Pulse, Sensor, Stage};
 use crate::problem::{Problem, Result};
-use crate::recording::{Camera, write_camera, write_recording};
+use crate::recording::{Camera, Kind, write_camera, write_recording};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -38,6 +38,9 @@ pub(super) struct Simulate {
     /// Demodulation in time
     #[arg(long, value_name = "DUTY,EDGE_S,BANDWIDTH_HZ", requires = "light", value_parser = pulse)]
     demodulation: Option<Pulse>,
+    /// The constant part of the camera's own light over its modulated part; without it, 2.2, or what the pulses give
+    #[arg(long, value_name = "RATIO")]
+    constant_ratio: Option<f64>,
     /// Columns and rows, behind the same lens; without it, the camera's
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Geometry>,
@@ -47,6 +50,9 @@ pub(super) struct Simulate {
     /// Which recordings, with commas; without it, all
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     recordings: Vec<String>,
+    /// Of the motion recordings only the runs at these velocities, with commas; without it, all: ±0.5, ±1 and ±2 m/s
+    #[arg(long, value_name = "M/S", value_delimiter = ',', allow_negative_numbers = true)]
+    velocities_m_s: Vec<f64>,
     /// Modulation frequency, Hz
     #[arg(long, value_name = "HZ", default_value_t = FREQUENCY_HZ)]
     frequency_hz: f64,
@@ -114,6 +120,9 @@ impl Simulate {
         let effects: Vec<Active> =
             self.effect.iter().map(|text| injection_for(text, camera.adc_bits)).collect::<Result<_>>()?;
         each_once("--effect", "effect", effects.iter().map(|active| active.effect.name))?;
+        if let Some(ratio) = self.constant_ratio {
+            in_range("--constant-ratio", ratio, &(0.0..=100.0))?;
+        }
         in_range("--frequency-hz", self.frequency_hz, &(1e4..=1e10))?;
         in_range("--frame-period-s", self.frame_period_s, &(1e-6..=100.0))?;
         let (camera, sensor) = self.camera(camera, &effects)?;
@@ -121,7 +130,8 @@ impl Simulate {
             Plan { frequency_hz: self.frequency_hz, frame_period_s: self.frame_period_s, seed: self.seed };
         let names = if self.recordings.is_empty() { Plan::names() } else { self.recordings.clone() };
         each_once("--recordings", "recording", names.iter().map(String::as_str))?;
-        let courses: Vec<Course> = names.iter().map(|name| plan.course(name)).collect::<Result<_>>()?;
+        let courses: Vec<Course> =
+            names.iter().map(|name| self.at_velocities(name, plan.course(name)?)).collect::<Result<_>>()?;
         if let Some(present) = names.iter().map(|name| out.join(name)).find(|folder| folder.exists()) {
             return Err(Problem::in_file(&present, "is there already").expected("a new campaign"));
         }
@@ -171,6 +181,18 @@ impl Simulate {
         }
     }
 
+    /// `course`, of a motion recording only the sets at the velocities that were asked for.
+    fn at_velocities(&self, name: &str, mut course: Course) -> Result<Course> {
+        if course.kind == Kind::Motion && !self.velocities_m_s.is_empty() {
+            course.sets.retain(|row| self.velocities_m_s.contains(&row.velocity_m_s));
+        }
+        if course.sets.is_empty() {
+            let found = format!("{name} has no run at {:?} m/s", self.velocities_m_s);
+            return Err(Problem::at("--velocities-m-s", found).expected("some of ±0.5, ±1 and ±2 m/s"));
+        }
+        Ok(course)
+    }
+
     /// What the campaign's camera.toml says, and the sensor with its assumed light.
     fn camera(&self, mut camera: Camera, effects: &[Active]) -> Result<(Camera, Sensor)> {
         if let Some(geometry) = self.size {
@@ -185,7 +207,8 @@ impl Simulate {
             constant_ratio = Some(ratio);
         }
         let sensor = sensor(&camera);
-        let sensor = Sensor { constant_ratio: constant_ratio.unwrap_or(sensor.constant_ratio), ..sensor };
+        let constant_ratio = self.constant_ratio.or(constant_ratio).unwrap_or(sensor.constant_ratio);
+        let sensor = Sensor { constant_ratio, ..sensor };
         Ok((included_without(camera, effects), sensor))
     }
 }

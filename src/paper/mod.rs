@@ -5,6 +5,7 @@
 //! quantity, figure and table says what was assumed for it.
 
 pub mod camera;
+mod candidates;
 mod figure;
 mod figure_01;
 mod figure_02;
@@ -27,6 +28,7 @@ pub mod residual;
 pub mod rivals;
 pub mod table_1;
 
+pub use candidates::table as candidates_table;
 pub use figure::{Figure, Plot, Stroke, Table, mm};
 pub use quantities::{linearity_range_m, quantities};
 pub use quantity::{Measured, Quantity};
