@@ -6,6 +6,7 @@ use super::evidence::{Block, Evidence, Model, is_seen};
 use super::fit::{Fit, fit};
 use super::gram::{Gram, Noise};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
+use super::simpler::Simpler;
 use std::collections::BTreeSet;
 
 /// Less evidence than this (nats) asserts nothing.
@@ -55,6 +56,8 @@ pub struct Found {
     pub detectable: Vec<(&'static str, usize, f64)>,
     /// Score statistic of each candidate alone at the baseline, its degrees of freedom, evidence: for `ruled_out`.
     pub alone: Vec<(&'static str, f64, usize, f64)>,
+    /// What simpler methods name at the baseline.
+    pub simpler: Simpler,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -65,6 +68,7 @@ struct Pass {
     invisible: Vec<&'static str>,
     detectable: Vec<(&'static str, usize, f64)>,
     singles: Vec<f64>,
+    simpler: Simpler,
 }
 
 /// All candidates at the fit `base`, with what it has fitted projected out.
@@ -127,7 +131,10 @@ fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter:
         }
     }
     let singles = (0..blocks.len()).map(|block| evidence.ln_bayes(&[block])).collect();
-    Pass { models: evidence.models(), scores, invisible, detectable, singles, blocks }
+    let name = |block: &Block| candidates[block.candidate].effect.name;
+    let is_first = base.columns.is_empty();
+    let simpler = is_first.then(|| Simpler::of(&evidence, &blocks, gram.samples, &name)).unwrap_or_default();
+    Pass { simpler, models: evidence.models(), scores, invisible, detectable, singles, blocks }
 }
 
 impl Found {
@@ -197,8 +204,8 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
         current = fitted;
     }
     drop_needless(data, noise, &mut current, &mut named);
-    let first = first.unwrap_or_default();
-    Found { baseline, fit: current, named, invisible: first.invisible, detectable: first.detectable, alone }
+    let Pass { invisible, detectable, simpler, .. } = first.unwrap_or_default();
+    Found { baseline, fit: current, named, invisible, detectable, alone, simpler }
 }
 
 /// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.
