@@ -132,8 +132,10 @@ fn pass(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, jitter:
     }
     let singles = (0..blocks.len()).map(|block| evidence.ln_bayes(&[block])).collect();
     let name = |block: &Block| candidates[block.candidate].effect.name;
-    let is_first = base.columns.is_empty();
-    let simpler = is_first.then(|| Simpler::of(&evidence, &blocks, gram.samples, &name)).unwrap_or_default();
+    let simpler = match base.columns.len() {
+        0 => Simpler::of(&evidence, &blocks, gram.samples, &name),
+        _ => Simpler::default(),
+    };
     Pass { simpler, models: evidence.models(), scores, invisible, detectable, singles, blocks }
 }
 
