@@ -4,13 +4,13 @@ use assert_cmd::Command;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use vuris::bench::{Course, Simulation, chain, sensor};
+use vuris::bench::{Course, Simulation, chain, injection, sensor};
 use vuris::challenge::{
-    Answer, Asserted, CaseKind, HeldOut, Hidden, Label, Located, Outcome, drawn, judge, opened, scored,
-    sealed, table,
+    Answer, Asserted, CaseKind, Estimate, HeldOut, Hidden, Label, Located, Outcome, Simpler, Truth, drawn,
+    judge, judge_names, opened, scored, sealed, summary, table, truths,
 };
 use vuris::frames::Geometry;
-use vuris::physics::Pixels;
+use vuris::physics::{Active, Pixels, effects};
 use vuris::recording::{Kind, SetRow};
 use vuris::time_domain::{
     Flaw, Hook, Known, Movie, Programme, Pulse, Ruler, Scene, Sensor, Waveform, World, camera, flaws, movie,
@@ -56,6 +56,11 @@ fn world() -> World {
 /// The largest difference, in DN, between the frames of `world` and those of the harmonic-domain simulator, told what
 /// `camera.toml` tells of `told`.
 fn largest_difference_dn(world: &World, told: &World, known: Known) -> f64 {
+    difference_dn(world, told, known, &[], Vec::new())
+}
+
+/// The same between frames with `flaws` and a simulator with `effects`.
+fn difference_dn(world: &World, told: &World, known: Known, flaws: &[&Flaw], effects: Vec<Active>) -> f64 {
     let described = camera(told, known);
     let pixels = &world.scene.pixels;
     let light = |of: fn(&vuris::time_domain::Pixel) -> f64| -> Vec<f64> {
@@ -78,10 +83,10 @@ fn largest_difference_dn(world: &World, told: &World, known: Known) -> f64 {
         edges,
         target,
     };
-    let chain = chain(&described, Arc::new(seen), Vec::new());
+    let chain = chain(&described, Arc::new(seen), effects);
     let sensor = sensor(&described);
     let simulation = Simulation { chain: &chain, sensor: &sensor, noise: false, seed: 1, recording: 0 };
-    let mut frames = movie(world, Known::BOTH, &[], None).into_iter();
+    let mut frames = movie(world, Known::BOTH, flaws, None).into_iter();
     let mut largest: f64 = 0.0;
     for recording in recordings(world, known, &[], 1) {
         let course = Course::of(&recording).unwrap();
@@ -198,10 +203,51 @@ fn noise_has_the_variance_that_the_camera_tells() {
     assert!((chi2 - 1.0).abs() < 5.0 * (2.0f64 / count).sqrt(), "{chi2} of {count}");
 }
 
+/// What a label says of an effect's parameters is what the registry means by them: with these values its frames are the generator's, for
+/// several shapes of each flaw.
+#[test]
+fn told_parameters_give_the_generators_frames() {
+    let world = world();
+    let mut told = 0;
+    for mechanism in flaws::all().filter(|mechanism| !mechanism.is_outside()) {
+        for seed in 0..6 {
+            let flaw = Flaw::drawn(mechanism, seed);
+            let truths = truths(&flaw, &world);
+            if truths.is_empty() {
+                continue;
+            }
+            told += usize::from(seed == 0);
+            let effect = effects::named(mechanism.name).unwrap();
+            for truth in &truths {
+                let parameter = effect.parameters.iter().find(|parameter| parameter.name == truth.name);
+                assert_eq!(parameter.map(|parameter| parameter.unit), Some(truth.unit.as_str()), "{truth:?}");
+            }
+            let value = |truth: &Truth, factor: f64| format!("{}={:e}", truth.name, factor * truth.value);
+            let difference = |factor: f64| {
+                let all: Vec<String> = truths.iter().map(|truth| value(truth, factor)).collect();
+                let effect = injection(&format!("{}:{}", mechanism.name, all.join(","))).unwrap();
+                let known = Known::without([mechanism.name]);
+                difference_dn(&world, &world, known, &[&flaw], vec![effect])
+            };
+            let (right, larger) = (difference(1.0), difference(1.1));
+            assert!(right < 0.006, "{} of seed {seed}: {right} DN", mechanism.name);
+            assert!(larger > 0.05, "{} of seed {seed}: {larger} DN a tenth off", mechanism.name);
+        }
+    }
+    assert!(told >= 10, "only {told} effects");
+}
+
 // ---------------------------------------------------------------- judging
 
 fn hidden(name: &str) -> Hidden {
-    Hidden { name: name.to_owned(), size: 0.01, unit: "1".to_owned(), rho: 20.0, rho_beside: 10.0 }
+    Hidden {
+        name: name.to_owned(),
+        size: 0.01,
+        unit: "1".to_owned(),
+        rho: 20.0,
+        rho_beside: 10.0,
+        parameters: Vec::new(),
+    }
 }
 
 fn label(effects: &[&str]) -> Label {
@@ -228,7 +274,12 @@ fn outside(lives: &[&str]) -> Label {
 fn answer(verdict: &str, effects: &[&str], place: &str) -> Answer {
     let asserted = |text: &&str| {
         let mut names = text.split('|').map(str::to_owned);
-        Asserted { name: names.next().unwrap(), probability: 0.9, also_possible: names.collect() }
+        Asserted {
+            name: names.next().unwrap(),
+            probability: 0.9,
+            also_possible: names.collect(),
+            parameters: Vec::new(),
+        }
     };
     Answer {
         format: "vuris-verdict/1".to_owned(),
@@ -272,32 +323,119 @@ fn answers_are_worth_what_the_rules_say() {
     }
 }
 
+/// Names alone are judged like an answer that says nothing else: with `near`, without rivals or a place.
+#[test]
+fn names_alone_are_judged_by_the_same_rules() {
+    let near = Label { near: vec![vec!["n".to_owned()]], ..label(&["a"]) };
+    for (label, named, outcome) in [
+        (label(&[]), &[][..], Outcome::Right),
+        (label(&[]), &["a"], Outcome::Wrong),
+        (label(&["a"]), &[], Outcome::Silent),
+        (label(&["a"]), &["a"], Outcome::Right),
+        (near, &["n"], Outcome::Possible),
+        (label(&["a", "b"]), &["b"], Outcome::Partly),
+        (label(&["a", "b"]), &["b", "a"], Outcome::Right),
+        (label(&["a"]), &["a", "b"], Outcome::Wrong),
+        (outside(&["row"]), &["a"], Outcome::Wrong),
+        (outside(&["row"]), &[], Outcome::Silent),
+    ] {
+        assert_eq!(judge_names(&label, &names(named)), outcome, "{label:?} {named:?}");
+    }
+}
+
+fn names(names: &[&str]) -> Vec<String> {
+    names.iter().map(|&name| name.to_owned()).collect()
+}
+
+fn simpler(single: &[&str], sparse: &[&str]) -> Simpler {
+    Simpler {
+        format: "vuris-simpler/1".to_owned(),
+        best_single: names(single),
+        sparse_regression: names(sparse),
+    }
+}
+
 #[test]
 fn a_score_adds_up() {
-    let cases = vec![
-        (label(&[]), answer("clean", &[], "")),
-        (label(&[]), answer("unexplained", &[], "row")),
-        (label(&["a"]), answer("explained", &["a"], "row")),
-        (label(&["a"]), answer("explained", &["b|a"], "row")),
-        (label(&["a", "b"]), answer("explained", &["a"], "row")),
-        (outside(&["row"]), answer("clean", &[], "")),
+    let mut cases = vec![
+        (label(&[]), answer("clean", &[], ""), simpler(&["a"], &[])),
+        (label(&[]), answer("unexplained", &[], "row"), simpler(&[], &[])),
+        (label(&["a"]), answer("explained", &["a"], "row"), simpler(&["a"], &["b"])),
+        (label(&["a"]), answer("explained", &["b|a"], "row"), simpler(&["a"], &["a"])),
+        (label(&["a", "b"]), answer("explained", &["a"], "row"), simpler(&["a"], &["a", "b"])),
+        (outside(&["row"]), answer("clean", &[], ""), simpler(&["a"], &[])),
     ];
+    // The middle of 1.2, 1.2 and 9 is 1.2; this one is no better with its name.
+    cases[2].1.held_out = HeldOut { chi2_per_dof_before: 9.0, chi2_per_dof_after: 9.5 };
     let scored = scored(cases);
-    assert_eq!(Outcome::ALL.map(|row| scored.all.of(row.0)), [2, 1, 1, 1, 1]);
-    assert_eq!(scored.all.score(), Some((2.0 + 0.5 - 0.25 - 1.0) / 6.0));
-    assert_eq!((scored.clean, scored.held_out), ((2, 1), (3, 3)));
-    assert_eq!(scored.kinds[&CaseKind::Clean].score(), Some(0.0));
+    let answers = &scored.answers;
+    assert_eq!(Outcome::ALL.map(|row| answers.all.of(row.0)), [2, 1, 1, 1, 1]);
+    assert_eq!(answers.all.score(), Some((2.0 + 0.5 - 0.25 - 1.0) / 6.0));
+    assert_eq!((answers.clean(), &scored.held_out[..]), ((2, 1), &[(9.0, 9.5), (1.2, 1.1), (1.2, 1.1)][..]));
+    assert_eq!(answers.kinds[&CaseKind::Clean].score(), Some(0.0));
     // Strengths 10 beside the other: all four with an effect are in the range from 8 to 15.
-    assert_eq!(scored.strengths.each_ref().map(|tally| tally.cases()), [0, 4, 0, 0, 0]);
+    assert_eq!(answers.strengths.each_ref().map(|tally| tally.cases()), [0, 4, 0, 0, 0]);
     // The limit has the first effect only: it is right but for the pair. The answer is right of one clean and one with an effect.
-    assert_eq!(scored.limit[..3], [(2, 2, 1), (0, 0, 0), (3, 2, 1)]);
+    assert_eq!((&scored.limit[..3], &answers.right[..3]), (&[(2, 2), (0, 0), (3, 2)][..], &[1, 0, 1][..]));
+    // One name at most: right of a clean one and of two effects, partly of the pair, wrong of the other clean one and outside.
+    let [single, sparse] = &scored.simpler;
+    assert_eq!(single.all.score(), Some((3.0 - 0.25 - 2.0) / 6.0));
+    assert_eq!((single.clean(), &single.right[..3]), ((2, 1), &[1, 0, 2][..]));
+    assert_eq!(sparse.all.score(), Some((4.0 - 1.0) / 6.0));
+    assert_eq!((sparse.clean(), &sparse.right[..3]), ((2, 0), &[2, 0, 2][..]));
+    let json = summary(&scored);
+    assert_eq!(json["simpler"]["sparse_regression"]["strengths"][1]["outcomes"]["right"], 2);
+    assert_eq!(json["cases"][2]["simpler"]["best_single"][0], "a");
     // Three names with probability 0.9, of which b is false; four mismatches stated, one of them of a clean campaign.
     assert_eq!((scored.names[2].stated, scored.names[2].true_ones), (3, 2));
     assert_eq!((scored.mismatch[3].stated, scored.mismatch[3].true_ones), (4, 3));
     let text = table(&scored);
-    for line in ["false alarms: 1 of 2 clean campaigns", "answered: explained b (or a), in row", "all "] {
+    for line in [
+        "false alarms: 1 of 2 clean campaigns (95 % interval 9.5 to 90.5 %); one by BIC: 1; sparse: 0",
+        "answered: explained b (or a), in row",
+        "all                        6        2        1        1        1        1   +0.208      +0.125      +0.500",
+        "clean                      2        2        1           1           2",
+        "better in 2 of 3 campaigns with a name; median chi2 a degree of freedom 1.200 before, 1.100 after",
+        "of 1 effects in answers that are right, the generator tells the parameters of 0 exactly",
+    ] {
         assert!(text.contains(line), "{line} is not in\n{text}");
     }
+}
+
+/// Errors count where the answer is right, the truth is told in the same unit, and the parameter was fitted.
+#[test]
+fn errors_of_parameters_are_in_their_stated_deviations() {
+    let truth = |name: &str, value: f64| Truth { name: name.to_owned(), value, unit: "rad".to_owned() };
+    let estimate = |name: &str, value: f64, sigma: f64, unit: &str| Estimate {
+        name: name.to_owned(),
+        value,
+        sigma,
+        unit: unit.to_owned(),
+    };
+    let case = |verdict: &str, named: &[&str]| {
+        let mut label = label(&["a"]);
+        label.effects[0].parameters = vec![truth("x", 1.0), truth("y", 5.0)];
+        let mut answer = answer(verdict, named, "row");
+        answer.effects[0].parameters = vec![
+            estimate("x (four-rail)", 1.3, 0.1, "rad"),
+            estimate("x (four-motion)", 0.9, 0.1, "rad"),
+            estimate("y", 5.5, 0.0, "rad"),
+            estimate("y", 5.5, 0.1, "DN"),
+            estimate("z", 1.0, 0.1, "rad"),
+        ];
+        (label, answer, simpler(&[], &[]))
+    };
+    let scored = scored(vec![case("explained", &["a"]), case("explained", &["a", "b"])]);
+    let errors = &scored.errors["a"];
+    assert_eq!((scored.named, errors.len(), scored.errors.len()), ((1, 1), 2, 1));
+    assert!((errors[0] - 3.0).abs() < 1e-9 && (errors[1] + 1.0).abs() < 1e-9, "{errors:?}");
+    // The root of (9 + 1) / 2, and one of them within 1.96.
+    let text = table(&scored);
+    assert!(text.contains("a                                  2     2.24        1\n"), "{text}");
+    assert!(
+        text.contains("of 1 effects in answers that are right, the generator tells the parameters of 1"),
+        "{text}"
+    );
 }
 
 // ---------------------------------------------------------------- seals
@@ -401,6 +539,14 @@ fn a_small_challenge_is_made_answered_and_scored() {
     let json: serde_json::Value =
         serde_json::from_str(&fs::read_to_string(home.path().join("score.json")).unwrap()).unwrap();
     assert_eq!(json["all"]["cases"], 4);
+    // Simpler methods have answered beside, and are judged by the same labels.
+    for method in ["best_single", "sparse_regression"] {
+        assert_eq!(json["simpler"][method]["all"]["cases"], 4);
+    }
+    fs::remove_file(home.path().join("one/c/answers/001.simpler.json")).unwrap();
+    vuris(&["score", "one/c", "--labels", "one/c-labels.json"], home.path()).failure();
+    let one = vuris(&["answer", "one/c"], home.path()).success();
+    assert!(String::from_utf8_lossy(&one.get_output().stdout).contains("1 of them now"));
 
     fs::write(home.path().join("forged.json"), labels.replacen("\"rho\": ", "\"rho\": 1", 1)).unwrap();
     let refused = vuris(&["score", "one/c", "--labels", "forged.json"], home.path()).failure();

@@ -3,6 +3,7 @@
 use super::draw::{Scale, world};
 use super::label::{Hidden, Label, NEAR};
 use super::limit::limit;
+use super::truth::truths;
 use crate::problem::{Problem, Result};
 use crate::recording::Recording;
 use crate::time_domain::{Flaw, Hook, Known, Mechanism, Movie, Ruler, World, flaws, movie, recordings};
@@ -218,6 +219,7 @@ impl Case {
             unit: flaw.mechanism.unit.to_owned(),
             rho: short(*rho),
             rho_beside: short(*beside),
+            parameters: truths(flaw, &drawn.world),
         };
         let (outside, inside): (Vec<_>, Vec<_>) =
             drawn.flaws.iter().partition(|(flaw, ..)| flaw.mechanism.is_outside());

@@ -72,6 +72,22 @@ pub struct Asserted {
     pub probability: f64,
     /// What it cannot be told from.
     pub also_possible: Vec<String>,
+    /// Its parameters as they were fitted.
+    #[serde(default)]
+    pub parameters: Vec<Estimate>,
+}
+
+/// A fitted parameter.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Estimate {
+    /// Its name, and in brackets the recordings, where it is not that of all.
+    pub name: String,
+    /// Its value, in `unit`.
+    pub value: f64,
+    /// The stated standard deviation; 0 where it was not fitted.
+    pub sigma: f64,
+    /// The unit.
+    pub unit: String,
 }
 
 /// The fit to sets that were held out.
@@ -85,10 +101,27 @@ pub struct HeldOut {
 
 /// What `answer` is worth for a campaign of `label`.
 pub fn judge(label: &Label, answer: &Answer) -> Outcome {
-    let named: Vec<&str> = answer.effects.iter().map(|effect| effect.name.as_str()).collect();
-    let alarm = answer.verdict != "clean";
+    let place = answer.located.first().map(|first| &first.coordinate);
+    worth(label, answer.verdict != "clean", place, &answer.effects)
+}
+
+/// What it is worth to assert `names` and to say nothing else: an alarm where there are any.
+pub fn judge_names(label: &Label, names: &[String]) -> Outcome {
+    let asserted = |name: &String| Asserted {
+        name: name.clone(),
+        probability: 1.0,
+        also_possible: Vec::new(),
+        parameters: Vec::new(),
+    };
+    let effects: Vec<Asserted> = names.iter().map(asserted).collect();
+    worth(label, !names.is_empty(), None, &effects)
+}
+
+/// What it is worth to raise an `alarm` or none, to have `place` first, and to assert `effects`.
+fn worth(label: &Label, alarm: bool, place: Option<&String>, effects: &[Asserted]) -> Outcome {
+    let named: Vec<&str> = effects.iter().map(|effect| effect.name.as_str()).collect();
     if label.outside.is_some() {
-        let lives = answer.located.first().is_some_and(|first| label.lives.contains(&first.coordinate));
+        let lives = place.is_some_and(|place| label.lives.contains(place));
         return match (named.is_empty(), alarm, lives) {
             (false, ..) => Outcome::Wrong,
             (true, false, _) => Outcome::Silent,
@@ -104,7 +137,7 @@ pub fn judge(label: &Label, answer: &Answer) -> Outcome {
     }
     let truths = label.right();
     let is_named = |names: &Vec<&str>| are_same(names, &named);
-    let held = |truth: &[&str]| are_held(&answer.effects, truth);
+    let held = |truth: &[&str]| are_held(effects, truth);
     if truths.iter().any(is_named) {
         Outcome::Right
     } else if truths.iter().any(|truth| truth.len() == named.len() && held(truth))

@@ -1,6 +1,7 @@
 //! What is concealed in a campaign.
 
 use super::case::CaseKind;
+use super::truth::Truth;
 use serde::{Deserialize, Serialize};
 
 /// Of an effect's change, what another effect may leave for both to be called alike in a campaign, in standard deviations.
@@ -19,6 +20,9 @@ pub struct Hidden {
     pub rho: f64,
     /// What is left of that where any multiple of the other effect's change is taken away, too.
     pub rho_beside: f64,
+    /// Its parameters in the registry's words, where the generator's numbers say exactly what they are.
+    #[serde(default)]
+    pub parameters: Vec<Truth>,
 }
 
 /// The truth about a campaign.

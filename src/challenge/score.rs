@@ -1,36 +1,11 @@
 //! What the answers to a challenge say together.
 
-use super::case::CaseKind;
-use super::judge::{Answer, Outcome, judge};
-use super::label::Label;
+use super::judge::{Answer, Asserted, Estimate, Outcome, judge, judge_names};
+use super::label::{Hidden, Label};
 use super::limit::is_right;
+use super::simpler::{METHODS, Simpler};
+use super::tally::{STRENGTHS, Tallies, place, range};
 use std::collections::BTreeMap;
-
-/// How many cases had which outcome.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Tally(BTreeMap<Outcome, usize>);
-
-impl Tally {
-    fn add(&mut self, outcome: Outcome) {
-        *self.0.entry(outcome).or_default() += 1;
-    }
-
-    /// Cases with this outcome.
-    pub fn of(&self, outcome: Outcome) -> usize {
-        self.0.get(&outcome).copied().unwrap_or(0)
-    }
-
-    /// All cases.
-    pub fn cases(&self) -> usize {
-        self.0.values().sum()
-    }
-
-    /// The score a case, −1 to 1; nothing of no case.
-    pub fn score(&self) -> Option<f64> {
-        let total: f64 = self.0.iter().map(|(outcome, &count)| outcome.score() * count as f64).sum();
-        (self.cases() > 0).then(|| total / self.cases() as f64)
-    }
-}
 
 /// Statements of about the same probability, and how often they were true.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -52,6 +27,8 @@ pub struct Judged {
     pub answer: Answer,
     /// What that is worth.
     pub outcome: Outcome,
+    /// What simpler methods say.
+    pub simpler: Simpler,
 }
 
 /// Everything about a challenge.
@@ -59,80 +36,109 @@ pub struct Judged {
 pub struct Scored {
     /// Case by case.
     pub cases: Vec<Judged>,
-    /// Of all cases.
-    pub all: Tally,
-    /// By kind.
-    pub kinds: BTreeMap<CaseKind, Tally>,
-    /// By the lower end of the range of strengths in [`STRENGTHS`], of the weakest effect.
-    pub strengths: [Tally; STRENGTHS.len()],
-    /// Campaigns without an effect that no library has, by the same ranges, clean ones first: how many there are, in how many an observer
-    /// who knows every effect's exact change is right, and in how many the answer is.
-    pub limit: [(usize, usize, usize); STRENGTHS.len() + 1],
-    /// Clean campaigns, and alarms among them.
-    pub clean: (usize, usize),
-    /// Campaigns in which a name was asserted, and those of them that it helped on held-out sets.
-    pub held_out: (usize, usize),
-    /// χ² a degree of freedom on held-out sets, of campaigns in which a name was asserted: sums before and after.
-    pub chi2: (f64, f64),
+    /// How the answers fared.
+    pub answers: Tallies,
+    /// How the simpler methods fared, in the order of [`METHODS`].
+    pub simpler: [Tallies; METHODS.len()],
+    /// Campaigns without an effect that no library has, clean ones first, then by the ranges of [`STRENGTHS`] of the weakest effect: how
+    /// many there are, and in how many an observer who knows every effect's exact change is right.
+    pub limit: [(usize, usize); STRENGTHS.len() + 1],
+    /// Of campaigns in which a name was asserted: χ² a degree of freedom on held-out sets, before and after.
+    pub held_out: Vec<(f64, f64)>,
+    /// Effects in answers that are right, and those of them whose parameters the generator tells exactly.
+    pub named: (usize, usize),
+    /// Of the latter, by name: errors of their fitted parameters in stated standard deviations.
+    pub errors: BTreeMap<String, Vec<f64>>,
     /// Names by their probability, in the ranges of [`PROBABILITIES`].
     pub names: [Calibration; PROBABILITIES.len()],
     /// Mismatch or none, by its probability.
     pub mismatch: [Calibration; PROBABILITIES.len()],
 }
 
-/// Lower ends of the ranges of strength.
-pub const STRENGTHS: [f64; 5] = [0.0, 8.0, 15.0, 30.0, 60.0];
 /// Lower ends of the ranges of probability.
 pub const PROBABILITIES: [f64; 5] = [0.0, 0.5, 0.8, 0.95, 0.99];
 
-/// The range that `value` is in.
-fn range(ends: &[f64], value: f64) -> usize {
-    ends.iter().rposition(|end| value >= *end).unwrap_or(0)
-}
-
-/// Judges every answer by its label.
-pub fn scored(cases: Vec<(Label, Answer)>) -> Scored {
+/// Judges every answer, and what simpler methods say, by its label.
+pub fn scored(cases: Vec<(Label, Answer, Simpler)>) -> Scored {
     let mut scored = Scored::default();
-    for (label, answer) in cases {
+    for (label, answer, simpler) in cases {
         let outcome = judge(&label, &answer);
-        scored.all.add(outcome);
-        scored.kinds.entry(label.kind).or_default().add(outcome);
+        scored.answers.add(&label, outcome);
+        for (tallies, method) in scored.simpler.iter_mut().zip(METHODS) {
+            tallies.add(&label, judge_names(&label, method.2(&simpler)));
+        }
         if label.outside.is_none() {
-            let range = label.weakest().map_or(0, |rho| 1 + range(&STRENGTHS, rho));
-            let (cases, limit, answers) = &mut scored.limit[range];
+            let (cases, limit) = &mut scored.limit[place(&label)];
             *cases += 1;
             *limit += usize::from(is_right(&label));
-            *answers += usize::from(outcome == Outcome::Right);
         }
-        let alarm = answer.verdict != "clean";
-        let mismatch = label.kind != CaseKind::Clean;
-        match label.weakest() {
-            Some(rho) => scored.strengths[range(&STRENGTHS, rho)].add(outcome),
-            None => {
-                scored.clean.0 += 1;
-                scored.clean.1 += usize::from(alarm);
-            }
+        scored.state(&label, &answer);
+        if !answer.effects.is_empty() {
+            let held_out = answer.held_out;
+            scored.held_out.push((held_out.chi2_per_dof_before, held_out.chi2_per_dof_after));
         }
+        if outcome == Outcome::Right {
+            scored.measure(&label, &answer);
+        }
+        scored.cases.push(Judged { label, answer, outcome, simpler });
+    }
+    scored
+}
+
+impl Scored {
+    /// Counts the probabilities that `answer` states.
+    fn state(&mut self, label: &Label, answer: &Answer) {
         let state = |ranges: &mut [Calibration], probability: f64, is_true: bool| {
             let cell = &mut ranges[range(&PROBABILITIES, probability)];
             cell.stated += 1;
             cell.sum += probability;
             cell.true_ones += usize::from(is_true);
         };
-        state(&mut scored.mismatch, answer.probability_of_mismatch, mismatch);
+        state(&mut self.mismatch, answer.probability_of_mismatch, label.weakest().is_some());
         let truths = label.right();
         for effect in &answer.effects {
             let is_true = truths.iter().any(|truth| truth.contains(&effect.name.as_str()));
-            state(&mut scored.names, effect.probability, is_true);
+            state(&mut self.names, effect.probability, is_true);
         }
-        if !answer.effects.is_empty() {
-            let (before, after) = (answer.held_out.chi2_per_dof_before, answer.held_out.chi2_per_dof_after);
-            scored.held_out.0 += 1;
-            scored.held_out.1 += usize::from(after < before);
-            scored.chi2.0 += before;
-            scored.chi2.1 += after;
-        }
-        scored.cases.push(Judged { label, answer, outcome });
     }
-    scored
+
+    /// Takes in the errors of the parameters in an `answer` that is right.
+    fn measure(&mut self, label: &Label, answer: &Answer) {
+        self.named.0 += answer.effects.len();
+        for effect in &answer.effects {
+            let hidden = label.effects.iter().find(|hidden| hidden.name == effect.name);
+            let Some(hidden) = hidden.filter(|hidden| !hidden.parameters.is_empty()) else { continue };
+            self.named.1 += 1;
+            self.errors.entry(effect.name.clone()).or_default().extend(errors(hidden, effect));
+        }
+    }
+}
+
+/// The errors of an effect's fitted parameters whose truth is known, in stated standard deviations.
+fn errors(hidden: &Hidden, effect: &Asserted) -> Vec<f64> {
+    let error = |estimate: &Estimate| {
+        // Of values that are fitted to some of the recordings, these follow in brackets.
+        let name = estimate.name.split(" (").next().unwrap_or("");
+        let truth = hidden.parameters.iter().find(|t| t.name == name && t.unit == estimate.unit)?;
+        (estimate.sigma > 0.0).then(|| (estimate.value - truth.value) / estimate.sigma)
+    };
+    effect.parameters.iter().filter_map(error).collect()
+}
+
+/// The middle of `values`; of an even number the mean of the two in the middle.
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let upper = values.get(values.len() / 2)?;
+    let lower = values.get((values.len() - 1) / 2)?;
+    Some(0.5 * (lower + upper))
+}
+
+/// Standard deviations within which 95 % of normal errors are.
+const USUAL: f64 = 1.96;
+
+/// Of `errors` in standard deviations: the root of their mean square, and how many are within 1.96.
+pub fn spread(errors: &[f64]) -> (f64, usize) {
+    let square: f64 = errors.iter().map(|error| error * error).sum();
+    let within = errors.iter().filter(|error| error.abs() <= USUAL).count();
+    ((square / errors.len().max(1) as f64).sqrt(), within)
 }

@@ -3,7 +3,7 @@
 use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
-use crate::challenge::{Answer, LabelFile, drawn, entropy, opened, scored, sealed, summary, table};
+use crate::challenge::{Answer, LabelFile, Simpler, drawn, entropy, opened, scored, sealed, summary, table};
 use crate::problem::{Problem, Result};
 use crate::recording::{Staging, write_campaign};
 use clap::{Args, Subcommand};
@@ -165,12 +165,20 @@ impl Answers {
         let names = campaigns(&self.folder)?;
         let program = std::env::current_exe()
             .map_err(|error| Problem::at("this program", error).expected("a path to it"))?;
-        let file = |name: &str| self.folder.join(ANSWERS).join(format!("{name}.json"));
-        let open: Vec<&String> = names.iter().filter(|name| !is_answered(&file(name), &program)).collect();
+        let open: Vec<&String> = names
+            .iter()
+            .filter(|name| {
+                !is_answered::<Answer>(&answer_file(&self.folder, name), &program)
+                    || !is_answered::<Simpler>(&simpler_file(&self.folder, name), &program)
+            })
+            .collect();
         let failures: Vec<Problem> = progress::steps(open.len(), |done| {
             let answer = |name: &&String| {
-                let text = diagnosed(&program, &self.folder.join(CAMPAIGNS).join(name));
-                let written = text.and_then(|text| write_file(&file(name), &text));
+                let texts = diagnosed(&program, &self.folder.join(CAMPAIGNS).join(name));
+                let written = texts.and_then(|[answer, simpler]| {
+                    write_file(&simpler_file(&self.folder, name), &simpler)?;
+                    write_file(&answer_file(&self.folder, name), &answer)
+                });
                 done("campaigns");
                 written.err()
             };
@@ -186,20 +194,33 @@ impl Answers {
     }
 }
 
-/// Whether `file` is a whole answer of this `program` or a later one.
-fn is_answered(file: &Path, program: &Path) -> bool {
-    let changed = |path: &Path| fs::metadata(path).and_then(|data| data.modified()).ok();
-    read_json::<Answer>(file).is_ok() && changed(file) >= changed(program)
+/// The answer to the campaign called `case`.
+fn answer_file(folder: &Path, case: &str) -> PathBuf {
+    folder.join(ANSWERS).join(format!("{case}.json"))
 }
 
-/// The diagnosis of the campaign in `folder`, by a process that stands in a copy of it and has nothing else.
-fn diagnosed(program: &Path, folder: &Path) -> Result<String> {
+/// What simpler methods name in it.
+fn simpler_file(folder: &Path, case: &str) -> PathBuf {
+    folder.join(ANSWERS).join(format!("{case}.simpler.json"))
+}
+
+/// Whether `file` is a whole answer of this `program` or a later one.
+fn is_answered<T: DeserializeOwned>(file: &Path, program: &Path) -> bool {
+    let changed = |path: &Path| fs::metadata(path).and_then(|data| data.modified()).ok();
+    read_json::<T>(file).is_ok() && changed(file) >= changed(program)
+}
+
+/// The diagnosis of the campaign in `folder`, by a process that stands in a copy of it and has nothing else; and what simpler methods
+/// name there.
+fn diagnosed(program: &Path, folder: &Path) -> Result<[String; 2]> {
     let cannot = |error: std::io::Error| Problem::io(folder, "copy", &error);
     let room = tempfile::Builder::new().prefix("vuris-").tempdir().map_err(cannot)?;
     let copy = room.path().join("campaign");
     copy_folder(folder, &copy).map_err(cannot)?;
+    let simpler = room.path().join("simpler.json");
     let output = Command::new(program)
-        .args(["diagnose", ".", "--json", "-"])
+        .args(["diagnose", ".", "--json", "-", "--simpler"])
+        .arg(&simpler)
         .current_dir(&copy)
         .env_clear()
         // As many processes run at once as there are processors.
@@ -213,7 +234,8 @@ fn diagnosed(program: &Path, folder: &Path) -> Result<String> {
     }
     serde_json::from_str::<Answer>(&text)
         .map_err(|error| Problem::in_file(folder, format_args!("the diagnosis is no answer: {error}")))?;
-    Ok(text)
+    let simpler = fs::read_to_string(&simpler).map_err(|error| Problem::io(&simpler, "read", &error))?;
+    Ok([text, simpler])
 }
 
 fn copy_folder(from: &Path, to: &Path) -> std::io::Result<()> {
@@ -237,13 +259,14 @@ impl Score {
         let labels = opened(&self.labels.display().to_string(), &sealed, &seals)?;
         let mut cases = Vec::new();
         for label in labels {
-            let file = self.folder.join(ANSWERS).join(format!("{}.json", label.case));
-            let answer: Answer = read_json(&file).map_err(|problem| {
+            let missing = |problem: Problem| {
                 problem
                     .expected("an answer to every campaign")
                     .remedy(format_args!("vuris challenge answer {}", self.folder.display()))
-            })?;
-            cases.push((label, answer));
+            };
+            let answer: Answer = read_json(&answer_file(&self.folder, &label.case)).map_err(missing)?;
+            let simpler: Simpler = read_json(&simpler_file(&self.folder, &label.case)).map_err(missing)?;
+            cases.push((label, answer, simpler));
         }
         let scored = scored(cases);
         if let Some(file) = &self.json {

@@ -10,6 +10,7 @@ use crate::problem::{Problem, Result};
 use crate::recording::Recording;
 use crate::report::{diagnosis_page, diagnosis_text};
 use clap::Args;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -31,15 +32,18 @@ pub(super) struct Diagnose {
     /// Write the camera's description with the effects that were found
     #[arg(long, value_name = "camera.toml")]
     write_camera: Option<PathBuf>,
+    /// Write what two simpler methods name, best single effect by BIC and sparse regression, as JSON
+    #[arg(long, value_name = "FILE")]
+    simpler: Option<PathBuf>,
 }
 
 impl Diagnose {
     pub(super) fn run(self) -> Result<ExitCode> {
         if self.campaigns.len() > 1
-            && [&self.json, &self.report, &self.write_camera].iter().any(|file| file.is_some())
+            && [&self.json, &self.report, &self.write_camera, &self.simpler].iter().any(|file| file.is_some())
         {
             return Err(Problem::at(
-                "--json, --report, --write-camera",
+                "--json, --report, --write-camera, --simpler",
                 counted(self.campaigns.len(), "campaign"),
             )
             .expected("one campaign for one file")
@@ -62,6 +66,16 @@ impl Diagnose {
                 .map_err(|error| Problem::at("the verdict", error))?;
             if let Some(file) = &self.write_camera {
                 write_file(file, &camera_with(&data, &diagnosis.judgement).to_toml())?;
+            }
+            if let Some(file) = &self.simpler {
+                let simpler = &diagnosis.judgement.found.simpler;
+                let text = serde_json::to_string_pretty(&json!({
+                    "format": "vuris-simpler/1",
+                    "best_single": simpler.best_single,
+                    "sparse_regression": simpler.sparse_regression,
+                }));
+                let text = text.map_err(|error| Problem::at("the simpler methods' names", error))?;
+                write_file(file, &format!("{text}\n"))?;
             }
             if let Some(file) = &self.report {
                 write_file(file, &diagnosis_page(campaign, &diagnosis)?)?;

@@ -1,6 +1,7 @@
 //! Which candidates the data ask for: Bayes factors from score and information, no refit needed.
 
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// A candidate's columns in some variant of its shape: their numbers.
 #[derive(Debug, Clone)]
@@ -100,10 +101,16 @@ impl<'a> Evidence<'a> {
         self.white[block].as_ref().map(|white| (white.score.norm_squared(), white.score.len()))
     }
 
-    /// The evidence for the blocks together.
-    pub fn ln_bayes(&self, chosen: &[usize]) -> f64 {
-        let parts: Option<Vec<&White>> = chosen.iter().map(|&block| self.white[block].as_ref()).collect();
-        let Some(parts) = parts else { return f64::NEG_INFINITY };
+    /// Information, score, and the place of each block among them, of the `chosen` blocks together, in coordinates in which each block's own
+    /// information is the identity. A block that cannot be seen has no place among them: an empty one.
+    pub fn joint(&self, chosen: &[usize]) -> (DMatrix<f64>, DVector<f64>, Vec<Range<usize>>) {
+        let none = White { basis: DMatrix::zeros(self.matrix.nrows(), 0), score: DVector::zeros(0) };
+        self.together(
+            &chosen.iter().map(|&block| self.white[block].as_ref().unwrap_or(&none)).collect::<Vec<_>>(),
+        )
+    }
+
+    fn together(&self, parts: &[&White]) -> (DMatrix<f64>, DVector<f64>, Vec<Range<usize>>) {
         let size: usize = parts.iter().map(|part| part.score.len()).sum();
         let mut inner = DMatrix::identity(size, size);
         let mut score = DVector::zeros(size);
@@ -122,6 +129,14 @@ impl<'a> Evidence<'a> {
             of.push(row..row + width);
             row += width;
         }
+        (inner, score, of)
+    }
+
+    /// The evidence for the blocks together.
+    pub fn ln_bayes(&self, chosen: &[usize]) -> f64 {
+        let parts: Option<Vec<&White>> = chosen.iter().map(|&block| self.white[block].as_ref()).collect();
+        let Some(parts) = parts else { return f64::NEG_INFINITY };
+        let (inner, score, of) = self.together(&parts);
         let mut prior: Vec<f64> =
             parts.iter().map(|p| (p.score.norm_squared() / p.score.len() as f64).max(LEAST_PRIOR)).collect();
         let mut ln_bayes = f64::NEG_INFINITY;

@@ -204,6 +204,7 @@ mod tests {
     use super::*;
     use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
     use crate::diagnose::fit::{fit, unfitted};
+    use crate::diagnose::pieces::Piece;
     use crate::diagnose::stated_noise;
     use crate::frames::{Geometry, RawSets};
     use crate::physics::{Active, FREQUENCY_HZ, Stage};

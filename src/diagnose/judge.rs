@@ -5,8 +5,9 @@ use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
 use super::location::{Located, Location, locate};
+use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
-use super::search::{DISBELIEF, Found, Named, search};
+use super::search::{Found, Named, search};
 use crate::physics::effects;
 
 /// Evidence (nats) from which on a coordinate counts as located.

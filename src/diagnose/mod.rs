@@ -17,11 +17,13 @@ mod lines;
 mod location;
 mod next;
 mod noise;
+mod pass;
 mod pieces;
 mod profiles;
 mod ranges;
 mod search;
 mod settle;
+mod simpler;
 mod verdict;
 
 pub use camera::camera_with;
@@ -34,6 +36,7 @@ pub use library::library;
 pub use location::{Located, Location};
 pub use profiles::{Point, Profile};
 pub use search::{Found, Named};
+pub use simpler::Simpler;
 pub use verdict::{Answer, Diagnosis, EffectRow, HeldOutRow, LocatedRow, diagnose};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise.

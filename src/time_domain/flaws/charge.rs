@@ -13,10 +13,15 @@ pub const MECHANISMS: &[Mechanism] = &[
     Mechanism::known("adc_nonlinearity", "DN", 1.0, 60.0, Hook::Code(adc_nonlinearity), 'c'),
 ];
 
+/// Of a response that is not linear, the share of the cubic part.
+pub fn cubic_part(flaw: &Flaw) -> f64 {
+    flaw.draw(1, 0.0, 0.6)
+}
+
 /// The charge's capacity grows or shrinks with it: a quadratic and a cubic part.
 fn intensity_nonlinearity(flaw: &Flaw, world: &World, _: usize, charge_e: f64) -> f64 {
     let filled = charge_e / world.sensor.full_scale_e();
-    let cubic = flaw.draw(1, 0.0, 0.6);
+    let cubic = cubic_part(flaw);
     charge_e * (1.0 + flaw.sign(0) * flaw.size * ((1.0 - cubic) * filled + cubic * filled * filled))
 }
 

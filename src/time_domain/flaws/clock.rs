@@ -33,9 +33,14 @@ fn phase_step_errors(flaw: &Flaw, _: &Take, moment: &mut Moment) {
     moment.gate_rad += flaw.size * flaw.normal(0, moment.frames, moment.frame);
 }
 
+/// Time constant of a phase drift, s.
+pub fn phase_warm_up_s(flaw: &Flaw) -> f64 {
+    flaw.draw(1, 5.0, 40.0)
+}
+
 /// The laser driver warms up after the start of each recording.
 fn phase_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
-    let time_constant_s = flaw.draw(1, 5.0, 40.0);
+    let time_constant_s = phase_warm_up_s(flaw);
     moment.gate_rad += flaw.sign(0) * flaw.size * (1.0 - (-moment.time_s / time_constant_s).exp());
 }
 
@@ -82,9 +87,14 @@ fn illumination_droop(flaw: &Flaw, _: &Take, moment: &mut Moment) {
     moment.light *= 1.0 - flaw.size * (1.0 - (-moment.within_s.max(0.0) / time_constant_s).exp());
 }
 
+/// Time constant of an illumination drift, s.
+pub fn light_warm_up_s(flaw: &Flaw) -> f64 {
+    flaw.draw(0, 8.0, 60.0)
+}
+
 /// The laser's power falls as it warms up after the start of each recording.
 fn illumination_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
-    let time_constant_s = flaw.draw(0, 8.0, 60.0);
+    let time_constant_s = light_warm_up_s(flaw);
     moment.light *= 1.0 - flaw.size * (1.0 - (-moment.time_s / time_constant_s).exp());
 }
 
@@ -93,8 +103,14 @@ fn ambient_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
     moment.ambient *= 1.0 + flaw.sign(0) * flaw.size * moment.time_s / 60.0;
 }
 
+/// Frequency of a flicker, Hz, and its phase at the start of a recording, rad.
+pub fn flicker(flaw: &Flaw) -> (f64, f64) {
+    let mains_hz = if flaw.draws[0] < 0.6 { 50.0 } else { 60.0 } + flaw.draw(1, -0.05, 0.05);
+    (2.0 * mains_hz, TAU * flaw.draws[2])
+}
+
 /// A lamp on a mains of 50 or 60 Hz that is not quite at its frequency.
 fn ambient_flicker(flaw: &Flaw, _: &Take, moment: &mut Moment) {
-    let mains_hz = if flaw.draws[0] < 0.6 { 50.0 } else { 60.0 } + flaw.draw(1, -0.05, 0.05);
-    moment.ambient *= 1.0 + flaw.size * (TAU * (2.0 * mains_hz * moment.time_s + flaw.draws[2])).cos();
+    let (frequency_hz, phase_rad) = flicker(flaw);
+    moment.ambient *= 1.0 + flaw.size * (TAU * frequency_hz * moment.time_s + phase_rad).cos();
 }

@@ -16,10 +16,15 @@ pub const MECHANISMS: &[Mechanism] = &[
     Mechanism::known("electrical_crosstalk", "DN", 1.0, 100.0, Hook::Ray(electrical_crosstalk), 'a'),
 ];
 
+/// Order and phase (rad) of a ringing.
+pub fn ringing(flaw: &Flaw) -> (f64, f64) {
+    ([3.0, 3.0, 5.0, 2.0][flaw.draw(0, 0.0, 3.999) as usize], TAU * flaw.draws[1])
+}
+
 /// The driver rings at a harmonic of the modulation: 2, 3 or 5.
 fn correlation_harmonics(flaw: &Flaw, waveform: &Waveform) -> Waveform {
-    let order = [3.0, 3.0, 5.0, 2.0][flaw.draw(0, 0.0, 3.999) as usize];
-    waveform.with_wave(order, flaw.size, TAU * flaw.draws[1])
+    let (order, phase_rad) = ringing(flaw);
+    waveform.with_wave(order, flaw.size, phase_rad)
 }
 
 /// Light that goes by a wall beside the path: out to the wall, to the target, and straight back.
@@ -75,8 +80,17 @@ fn intensity_related_phase(flaw: &Flaw, moment: &Moment, scene: &Scene, ray: &mu
     ray.delay_rad += flaw.sign(0) * flaw.size / (1.0 + level);
 }
 
+/// Charge that couples into the read-out, electrons: about ten a code.
+pub fn coupled_e(flaw: &Flaw) -> f64 {
+    10.0 * flaw.size
+}
+
+/// The gate's phase at which it is greatest, rad.
+pub fn coupled_rad(flaw: &Flaw) -> f64 {
+    TAU * flaw.draws[0]
+}
+
 /// The laser driver's current couples into the read-out, with or without light.
 fn electrical_crosstalk(flaw: &Flaw, moment: &Moment, _: &Scene, ray: &mut Ray) {
-    // About ten electrons a code.
-    ray.extra_e += 10.0 * flaw.size * (moment.gate_rad - TAU * flaw.draws[0]).cos();
+    ray.extra_e += coupled_e(flaw) * (moment.gate_rad - coupled_rad(flaw)).cos();
 }

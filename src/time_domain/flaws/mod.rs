@@ -5,6 +5,10 @@ mod clock;
 mod light;
 mod outside;
 
+pub use charge::cubic_part;
+pub use clock::{flicker, light_warm_up_s, phase_warm_up_s};
+pub use light::{coupled_e, coupled_rad, ringing};
+
 use super::plan::Take;
 use super::scene::Scene;
 use super::waveform::Waveform;
@@ -120,7 +124,7 @@ impl Flaw {
     }
 
     /// Either sign.
-    fn sign(&self, number: usize) -> f64 {
+    pub fn sign(&self, number: usize) -> f64 {
         if self.draws[number % 8] < 0.5 { -1.0 } else { 1.0 }
     }
 
