@@ -31,6 +31,7 @@ fn moment(frame: usize, position_m: f64, velocity_m_s: f64, offset_rad: f64, lit
         step_rad: frame as f64 * FRAC_PI_2,
         offset_rad,
         position_m,
+        place_m: position_m,
         velocity_m_s,
         frequency_hz: 30e6,
         lit,

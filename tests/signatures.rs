@@ -54,6 +54,7 @@ fn still_frame(amplitude_dn: &[f64], effects: Vec<Active>, frame: usize) -> Vec<
         step_rad: frame as f64 * FRAC_PI_2,
         offset_rad: 0.0,
         position_m: 1.0,
+        place_m: 1.0,
         velocity_m_s: 0.0,
         frequency_hz: 30e6,
         lit: true,

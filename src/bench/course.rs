@@ -92,6 +92,7 @@ impl Course {
             step_rad: self.steps_rad[frame],
             offset_rad: row.phase_offset_rad,
             position_m: row.position_m.unwrap_or(NO_POSITION_M),
+            place_m: row.position_m.unwrap_or(NO_POSITION_M),
             velocity_m_s: row.velocity_m_s,
             frequency_hz: self.frequency_hz,
             lit: self.lit(),

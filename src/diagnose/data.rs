@@ -1,6 +1,7 @@
 //! A campaign as the fit sees it: frames above the pedestal, which samples count, and what the encoder said of each.
 
 use super::grid::Grid;
+use super::places::with_places;
 use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
 use crate::physics::{Active, Effect, Moment, effects};
@@ -117,7 +118,7 @@ impl Data {
             };
             takes.push(Take {
                 name: recording.name.clone(),
-                moments: course.moments(),
+                moments: with_places(course.moments()),
                 frames: course.frames(),
                 included: camera_effects(camera, &recording.name)?,
                 signal_dn: recording

@@ -18,6 +18,8 @@ const CLUSTER_NATS: f64 = 6.0;
 const USUAL_JITTER_M: f64 = 0.5e-3;
 /// Of what random errors explain, columns of a coordinate must explain so much to be what they are.
 const ORDERED_SHARE: f64 = 0.2;
+/// What an effect's freedom costs, nats, where its evidence is taken from its fit.
+const OCCAM_NATS: f64 = 10.0;
 /// How often the noise is corrected.
 const NOISE_STEPS: usize = 3;
 
@@ -119,7 +121,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut evidences: Vec<f64> = found.named.iter().map(|named| named.ln_bayes).collect();
     // Of two that were found together it is that of both.
     evidences.dedup();
-    let together: f64 = evidences.iter().sum();
+    // A fit may keep more than tangents promise.
+    let kept = 0.5 * explained - OCCAM_NATS * found.named.len() as f64;
+    let together: f64 = evidences.iter().sum::<f64>().max(kept);
     // Far from the baseline its columns promise more than there is.
     let is_far = explained > found.baseline.samples as f64;
     let simpler = found.named.len() > 1

@@ -27,7 +27,7 @@ pub struct SetSeen {
     pub number: usize,
     /// Its recording.
     pub take: usize,
-    /// The encoder's reading, m.
+    /// The encoder's reading without its noise, as far as that is known, m.
     pub reading_m: f64,
     /// The carriage's velocity, m/s.
     pub velocity_m_s: f64,
@@ -78,7 +78,7 @@ impl Series {
             self.sets.push(SetSeen {
                 number: whitened.set,
                 take: whitened.take,
-                reading_m: moment.position_m,
+                reading_m: moment.place_m,
                 velocity_m_s: moment.velocity_m_s,
                 ..SetSeen::default()
             });

@@ -19,6 +19,7 @@ mod next;
 mod noise;
 mod pass;
 mod pieces;
+mod places;
 mod profiles;
 mod ranges;
 mod search;

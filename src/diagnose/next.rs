@@ -39,7 +39,7 @@ const PROPOSALS: [Proposal; 6] = [
     },
     Proposal {
         what: "the same at a third of the distance",
-        change: |m| Moment { position_m: m.position_m / 3.0, ..*m },
+        change: |m| Moment { position_m: m.position_m / 3.0, place_m: m.place_m / 3.0, ..*m },
     },
     Proposal {
         what: "the same with phase offsets over the whole turn",

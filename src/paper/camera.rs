@@ -159,6 +159,7 @@ impl Camera {
                 step_rad,
                 offset_rad: set.offset_rad,
                 position_m: set.range_m,
+                place_m: set.range_m,
                 velocity_m_s: set.velocity_m_s,
                 frequency_hz: set.frequency_hz,
                 lit: true,

@@ -28,6 +28,8 @@ pub struct Moment {
     pub offset_rad: f64,
     /// The encoder's reading at the set's start, m.
     pub position_m: f64,
+    /// The same without its noise, as far as that is known, m: the mean of the readings where the target stands still.
+    pub place_m: f64,
     /// The carriage's commanded velocity, m/s, positive away from the camera.
     pub velocity_m_s: f64,
     /// Modulation frequency that was commanded, Hz.

@@ -20,6 +20,6 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let (cosine, sine) = cos_sin(TAU * exposure.moment.position_m / values[2]);
+    let (cosine, sine) = cos_sin(TAU * exposure.moment.place_m / values[2]);
     exposure.position_m += values[0] * cosine + values[1] * sine;
 }
