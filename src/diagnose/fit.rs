@@ -131,10 +131,10 @@ const ITERATIONS: usize = 12;
 const ENOUGH: f64 = 0.1;
 /// A step that makes the sum of squares so many times greater is damped (Levenberg 1944, Marquardt 1963).
 const WORSE: f64 = 1.01;
-const DAMPINGS: [f64; 6] = [0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0];
+const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
 
 /// Where the sum of squares is so many times the samples, the pixels' own numbers are settled before a step is judged.
-const FAR: f64 = 1.5;
+pub const FAR: f64 = 1.5;
 
 /// The pixels with their own numbers as they fit best, but for what their tangents leave, beside `pieces` as they are.
 pub fn settled(

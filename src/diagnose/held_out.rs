@@ -6,7 +6,7 @@
 
 use super::columns::Tangents;
 use super::data::{Data, Take};
-use super::fit::{Fit, fit, improved, settled};
+use super::fit::{FAR, Fit, fit, improved, settled};
 use super::gram::{Noise, whiten};
 
 use crate::spec::SCHEMES;
@@ -67,10 +67,11 @@ struct Seen {
 /// Predicts every set of `data` by `before` and by `after`, neither of which has seen it.
 pub fn held_out(data: &Data, before: &Fit, after: &Fit, noise: Noise) -> HeldOut {
     let is_few = data.sets().len() < FOLDS * GROUP;
+    let is_far = before.chi2 > FAR * before.samples as f64;
     let predict = |fit: &Fit| -> Vec<Seen> {
         let parts = (0..if is_few { PARTS } else { FOLDS }).flat_map(|part| match is_few {
             true => predicted_frames(data, fit, noise, part),
-            false => predicted(data, fit, noise, part),
+            false => predicted(data, fit, noise, part, is_far),
         });
         // In the order of the sets.
         parts.collect::<BTreeMap<usize, Seen>>().into_values().collect()
@@ -137,10 +138,16 @@ fn predicted_frames(data: &Data, of: &Fit, noise: Noise, part: usize) -> Vec<(us
     sets.filter_map(of_set).collect()
 }
 
-/// The sets of a fold, by number, seen by a model that was fitted to the others.
-fn predicted(data: &Data, fit: &Fit, noise: Noise, fold: usize) -> Vec<(usize, Seen)> {
+/// The sets of a fold, by number, seen by a model that was fitted to the others: by one step from what was fitted to all, which is enough
+/// unless the mismatch `is_far` above the noise.
+fn predicted(data: &Data, of: &Fit, noise: Noise, fold: usize, is_far: bool) -> Vec<(usize, Seen)> {
     let is_held = |set: usize| set / GROUP % FOLDS == fold;
-    let (pixels, pieces) = improved(data, fit, noise, &|set| !is_held(set));
+    let (pixels, pieces) = if is_far {
+        let fit = fit(data, Some(of), of.pieces.clone(), noise, &|set| !is_held(set));
+        (fit.pixels, fit.pieces)
+    } else {
+        improved(data, of, noise, &|set| !is_held(set))
+    };
     let (tangents, _) = Tangents::new(data, &pixels, &pieces, &[]);
     let sets = data.sets().into_par_iter().enumerate().filter(|(number, _)| is_held(*number));
     sets.filter_map(|(number, (take, set))| Some((number, seen(data, &tangents, noise, take, set)?)))

@@ -20,7 +20,7 @@ const LEADING_SHARE: f64 = 0.8;
 const MOST_LEADERS: usize = 5;
 /// The same where the mismatch is greater than the noise: there tangents say little of what a fit will.
 const FAR_SHARE: f64 = 0.25;
-const MOST_FAR_LEADERS: usize = 8;
+const MOST_FAR_LEADERS: usize = 6;
 /// Beyond so much evidence (nats) the tangents at the baseline need not hold at the fit.
 const STRONG_NATS: f64 = 30.0;
 /// A form may leave so many times its tolerance before it is not believed.
@@ -125,8 +125,13 @@ impl Pass {
 
     /// Whether what `best` explains of so many `samples` is more than their noise.
     pub fn is_far(&self, best: &Model, samples: usize) -> bool {
+        self.promised(best) > samples as f64
+    }
+
+    /// Chi squared that the tangents of the strongest block of `best` promise.
+    pub fn promised(&self, best: &Model) -> f64 {
         let scores = best.blocks.iter().filter_map(|&block| self.scores[block]);
-        scores.map(|score| score.0).fold(0.0, f64::max) > samples as f64
+        scores.map(|score| score.0).fold(0.0, f64::max)
     }
 
     /// Blocks that may be the best one when they are fitted, if there is any doubt which. None where `best` is a pair, whose strongest

@@ -12,6 +12,8 @@ use std::collections::BTreeSet;
 const MOST_EFFECTS: usize = 4;
 /// Without a camera's description much is left out at once: so much of what their forms may leave keeps further effects out.
 const UNDESCRIBED: f64 = 0.1;
+/// A fit keeps at least so much of what the tangents promise.
+const KEPT_SHARE: f64 = 0.5;
 /// How often a fit is begun anew where the first one was.
 const COMPLETING: usize = 4;
 /// An effect without which chi squared, halved, rises by less than this and one more for each of its numbers was not needed.
@@ -93,26 +95,26 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
             let pieces = current.pieces.iter().cloned().chain(more).collect();
             fit(data, Some(&current), pieces, noise, &|_| true)
         };
-        let is_far = pass.is_far(&whole, current.samples);
-        let leaders = pass.leaders(&whole, is_far);
-        let fits = leaders.into_iter().map(|block| (block, with(&[block])));
-        let (best, fitted) = match pass.fittest(current.chi2, fits, &candidates, is_far) {
-            Some((single, fitted, near)) => {
-                rivals.extend(near);
-                rivals.retain(|rival| rival != pass.name(single.blocks[0], &candidates));
-                if is_far {
-                    let complete = completed(data, fitted.clone(), noise);
-                    let ln_bayes = single.ln_bayes + 0.5 * (fitted.chi2 - complete.chi2);
-                    (Model { ln_bayes, ..single }, complete)
-                } else {
-                    (single, fitted)
-                }
+        let lead = |is_far: bool| {
+            let leaders = pass.leaders(&whole, is_far);
+            let fits = leaders.into_iter().map(|block| (block, with(&[block])));
+            let (single, fitted, near) = pass.fittest(current.chi2, fits, &candidates, is_far)?;
+            if !is_far {
+                return Some((single, fitted, near));
             }
-            None => {
-                let fitted = with(&best.blocks);
-                (best, fitted)
-            }
+            let complete = completed(data, fitted.clone(), noise);
+            let ln_bayes = single.ln_bayes + 0.5 * (fitted.chi2 - complete.chi2);
+            Some((Model { ln_bayes, ..single }, complete, near))
         };
+        let is_far = pass.is_far(&whole, current.samples);
+        let first_choice = lead(is_far).unwrap_or_else(|| (best.clone(), with(&best.blocks), Vec::new()));
+        // A fit that does not keep half of what tangents promise is too far from them.
+        let is_broken = current.chi2 - first_choice.1.chi2 < KEPT_SHARE * pass.promised(&first_choice.0);
+        let choice = if is_broken && !is_far { lead(true).unwrap_or(first_choice) } else { first_choice };
+        let (best, fitted, near) = choice;
+        rivals.extend(near);
+        let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, &candidates) == rival);
+        rivals.retain(|rival| !own(rival));
         rivals.extend(pass.near(&best, &candidates));
         let mut known = BTreeSet::new();
         rivals.retain(|rival| known.insert(rival.clone()));

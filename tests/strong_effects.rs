@@ -1,0 +1,60 @@
+//! `vuris diagnose` where the mismatch is so strong that tangents at the baseline say little, and where something weak stands beside it.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::Path;
+
+const CAMERA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/paper-bench/camera.toml");
+
+fn vuris(arguments: &[&str]) -> String {
+    let output = Command::cargo_bin("vuris").unwrap().args(arguments).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{text}");
+    text.into_owned()
+}
+
+/// What is said of these recordings, simulated with `options`.
+fn verdict(folder: &Path, recordings: &str, options: &[&str]) -> Value {
+    let out = folder.join("campaign");
+    let out = out.to_str().unwrap();
+    vuris(&[&["simulate", "--out", out, "--recordings", recordings], options].concat());
+    serde_json::from_str(&vuris(&["diagnose", out, "--json", "-"])).unwrap()
+}
+
+fn names(verdict: &Value) -> Vec<&str> {
+    verdict["effects"].as_array().unwrap().iter().map(|effect| effect["name"].as_str().unwrap()).collect()
+}
+
+/// Twelve sets of 64 frames by a response of the power 2.2: many numbers of other effects explain most of it, one explains all.
+#[test]
+fn a_response_that_is_a_power_is_named_by_its_exponent() {
+    let folder = tempfile::tempdir().unwrap();
+    let effect = ["--size", "10x8", "--effect", "intensity_nonlinearity:exponent=1.2"];
+    let verdict = verdict(folder.path(), "harmonics", &effect);
+    assert_eq!(names(&verdict), ["intensity_nonlinearity"], "{verdict:#}");
+    assert!(verdict["held_out"]["chi2_per_dof_before"].as_f64().unwrap() > 5.0, "too weak for this test");
+    let row = &verdict["effects"][0]["parameters"][0];
+    let [exponent, sigma] = ["value", "sigma"].map(|key| row[key].as_f64().unwrap());
+    assert!((exponent - 1.2).abs() < 4.0 * sigma, "{exponent} +- {sigma}");
+}
+
+/// The light's falloff within a set, at 2 m/s, explains hundreds of times what errors of single phase steps do: both are named.
+#[test]
+fn what_is_weak_beside_a_strong_effect_is_named_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let options =
+        ["--camera", CAMERA, "--size", "12x9", "--velocities-m-s", "2", "--frame-period-s", "0.03125"];
+    let effects = [
+        "--effect",
+        "inverse_square_falloff",
+        "--effect",
+        "phase_step_errors:setting_1_rad=0.003,setting_2_rad=-0.003",
+    ];
+    let recordings = "four-motion,four-rail,four-sweep";
+    let verdict = verdict(folder.path(), recordings, &[&options[..], &effects].concat());
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    assert_eq!(names(&verdict), ["inverse_square_falloff", "phase_step_errors"], "{verdict:#}");
+    let weak = &verdict["effects"][1]["evidence"]["delta_chi2"];
+    let strong = &verdict["effects"][0]["evidence"]["delta_chi2"];
+    assert!(strong.as_f64().unwrap() > 20.0 * weak.as_f64().unwrap(), "{strong} {weak}");
+}
