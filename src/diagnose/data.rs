@@ -207,6 +207,19 @@ impl Data {
         Self { takes, has_dark, ..self.clone() }
     }
 
+    /// The same with this share of the strength of every effect that the camera's simulation includes.
+    #[must_use]
+    pub fn with_share_of_included(&self, share: f64) -> Self {
+        let mut data = self.clone();
+        for active in data.takes.iter_mut().flat_map(|take| &mut take.included) {
+            let parameters = active.effect.parameters.iter().zip(&mut active.values);
+            for (parameter, value) in parameters.filter(|(parameter, _)| !parameter.is_shape()) {
+                *value = parameter.off + share * (*value - parameter.off);
+            }
+        }
+        data
+    }
+
     /// The same with another mask, a pixel each.
     #[must_use]
     pub fn with_target(&self, target: Vec<bool>) -> Self {

@@ -58,8 +58,29 @@ fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
     }
 }
 
-/// The pixels' own numbers from a linear fit of the fundamental.
-fn start(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
+/// The pixels' own numbers from a linear fit of the fundamental, led by steps to where the effects that the camera includes are there.
+fn start(data: &Data, noise: Noise, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
+    let pixels = start_without_effects(data, counts);
+    let is_far = || {
+        let round = Round::new(data, &pixels, &[], noise, counts);
+        round.square > FAR * round.samples as f64
+    };
+    if data.takes.iter().all(|take| take.included.is_empty()) || !is_far() {
+        return pixels;
+    }
+    APPROACH.into_iter().fold(pixels, |pixels, share| {
+        let part = data.with_share_of_included(share);
+        let settle = |pixels, _| settled(&part, &pixels, &[], noise, counts);
+        (0..SETTLINGS).fold(pixels, settle)
+    })
+}
+
+/// Of what the camera includes, so much is there at each step; how often pixels are settled at each.
+const APPROACH: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// Residuals count as 4 standard deviations at most, so that a pixel that is far off moves by steps.
+const SETTLINGS: usize = 8;
+
+fn start_without_effects(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
     let count = data.pixels();
     let unit = |amplitude: f64, phase_rad: f64, constant: f64, ambient: f64| {
         let numbers = [amplitude, phase_rad, constant, ambient].map(|value| vec![value; count]);
@@ -157,7 +178,7 @@ pub fn fit(
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> Fit {
-    let mut pixels = from.map_or_else(|| start(data, counts), |fit| Arc::clone(&fit.pixels));
+    let mut pixels = from.map_or_else(|| start(data, noise, counts), |fit| Arc::clone(&fit.pixels));
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
     let mut round = Round::new(data, &pixels, &pieces, noise, counts);
