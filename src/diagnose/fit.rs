@@ -170,6 +170,9 @@ pub fn settled(
     Arc::new(moved(pixels, &round.projected.own(&round.theta)))
 }
 
+/// By at least this share a step far from the minimum must lower the sum of squares for another one to be taken.
+const SLOW: f64 = 1e-3;
+
 /// Fits `pieces` from their values on, with the pixels of `from` or from scratch, to the sets of which `counts` is true.
 pub fn fit(
     data: &Data,
@@ -196,7 +199,12 @@ pub fn fit(
         });
         // Where not even a small step is one to the better, this is the end.
         let Some(better) = stepped else { break };
+        let is_slow = better.2.square > (1.0 - SLOW) * round.square;
         (pixels, pieces, round) = better;
+        // Far from any minimum, what hardly moves will not come there.
+        if is_slow && round.square > FAR * round.samples as f64 {
+            break;
+        }
     }
     round.end(pixels, pieces)
 }

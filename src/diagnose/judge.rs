@@ -124,7 +124,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // A fit may keep more than tangents promise.
     let kept = 0.5 * explained - OCCAM_NATS * found.named.len() as f64;
     let together: f64 = evidences.iter().sum::<f64>().max(kept);
-    // Far from the baseline its columns promise more than there is.
+    // Far from the baseline columns promise more than there is, and of several effects none is sure.
     let is_far = explained > found.baseline.samples as f64;
     let simpler = found.named.len() > 1
         && !is_far
@@ -145,7 +145,12 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         if named.is_empty() { Verdict::Clean } else { Verdict::Explained }
     } else if random.is_some() && named.len() == 1 {
         Verdict::Explained
-    } else if named.is_empty() || remainder > 0.5 || named.len() == 1 && remainder > most_left || dropped {
+    } else if named.is_empty()
+        || remainder > 0.5
+        || named.len() == 1 && remainder > most_left
+        || dropped
+        || is_far
+    {
         named.clear();
         Verdict::Unexplained
     } else {
@@ -187,7 +192,9 @@ fn asserted(data: &Data, found: &Found, named: &[Named], noise: Noise) -> Fit {
 fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, Location) {
     let found = search(data, baseline.clone(), noise, true);
     let end = locate(data, &found.fit, noise);
-    if !found.trusts_forms() || places(data, &end).is_empty() {
+    // Far from the baseline no form was trusted.
+    let is_far = found.baseline.chi2 - found.fit.chi2 > found.baseline.samples as f64;
+    if is_far || !found.trusts_forms() || places(data, &end).is_empty() {
         return (found, end);
     }
     let found = search(data, baseline, noise, false);
