@@ -1,16 +1,12 @@
 //! `vuris diagnose`: recovery, silence, the unknown, refusals, and the practice campaigns where they are at hand.
 
-use assert_cmd::Command;
+mod diagnosed;
+
+use diagnosed::{names, verdict, vuris};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use vuris::frames::RawSets;
 use vuris::recording::{Recording, write_recording};
-
-fn vuris(arguments: &[&str]) -> (bool, String) {
-    let output = Command::cargo_bin("vuris").unwrap().args(arguments).output().unwrap();
-    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    (output.status.success(), text.into_owned())
-}
 
 /// A small campaign with `effects`.
 fn campaign(folder: &Path, name: &str, effects: &[&str], seed: &str) -> PathBuf {
@@ -21,23 +17,6 @@ fn campaign(folder: &Path, name: &str, effects: &[&str], seed: &str) -> PathBuf 
     let (good, text) = vuris(&arguments);
     assert!(good, "{text}");
     out
-}
-
-fn verdict(campaign: &Path) -> Value {
-    let (good, text) = vuris(&["diagnose", campaign.to_str().unwrap(), "--json", "-"]);
-    assert!(good, "{text}");
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
-}
-
-fn names(verdict: &Value) -> Vec<String> {
-    let mut names: Vec<String> = verdict["effects"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|effect| effect["name"].as_str().unwrap().to_owned())
-        .collect();
-    names.sort();
-    names
 }
 
 /// Value and standard deviation of a parameter.

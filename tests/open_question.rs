@@ -1,6 +1,8 @@
 //! The open question of the paper, asked of the diagnosis on its simulated bench: docs/open-question.md in small.
 
-use assert_cmd::Command;
+mod diagnosed;
+
+use diagnosed::{names, vuris};
 use serde_json::Value;
 use std::path::Path;
 
@@ -19,28 +21,15 @@ const BENCH: [&str; 10] = [
     "--velocities-m-s",
 ];
 
-fn vuris(arguments: &[&str]) -> (bool, String) {
-    let output = Command::cargo_bin("vuris").unwrap().args(arguments).output().unwrap();
-    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    (output.status.success(), text.into_owned())
-}
-
 /// What is said of the four-frame motion recording, with `effect` concealed.
 fn verdict(folder: &Path, effect: Option<&str>) -> Value {
     let out = folder.join(effect.unwrap_or("nothing"));
-    let out = out.to_str().unwrap();
     let concealed: Vec<&str> = effect.iter().flat_map(|effect| ["--effect", effect]).collect();
-    let own = ["2", "--recordings", "four-motion", "--out", out];
+    let own = ["2", "--recordings", "four-motion", "--out", out.to_str().unwrap()];
     let (good, text) = vuris(&[&BENCH, &own[..], &concealed].concat());
     // Three runs of nine sets from 1 to 3 m.
     assert!(good && text.contains("four-motion: 27 sets of 4 frames"), "{text}");
-    let (good, text) = vuris(&["diagnose", out, "--json", "-"]);
-    assert!(good, "{text}");
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
-}
-
-fn names(verdict: &Value) -> Vec<&str> {
-    verdict["effects"].as_array().unwrap().iter().map(|effect| effect["name"].as_str().unwrap()).collect()
+    diagnosed::verdict(&out)
 }
 
 #[test]

@@ -1,28 +1,20 @@
 //! `vuris diagnose` where the mismatch is so strong that tangents at the baseline say little, and where something weak stands beside it.
 
-use assert_cmd::Command;
+mod diagnosed;
+
+use diagnosed::{names, vuris};
 use serde_json::Value;
 use std::path::Path;
 
 const CAMERA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/paper-bench/camera.toml");
 
-fn vuris(arguments: &[&str]) -> String {
-    let output = Command::cargo_bin("vuris").unwrap().args(arguments).output().unwrap();
-    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{text}");
-    text.into_owned()
-}
-
 /// What is said of these recordings, simulated with `options`.
 fn verdict(folder: &Path, recordings: &str, options: &[&str]) -> Value {
     let out = folder.join("campaign");
-    let out = out.to_str().unwrap();
-    vuris(&[&["simulate", "--out", out, "--recordings", recordings], options].concat());
-    serde_json::from_str(&vuris(&["diagnose", out, "--json", "-"])).unwrap()
-}
-
-fn names(verdict: &Value) -> Vec<&str> {
-    verdict["effects"].as_array().unwrap().iter().map(|effect| effect["name"].as_str().unwrap()).collect()
+    let own = ["simulate", "--out", out.to_str().unwrap(), "--recordings", recordings];
+    let (good, text) = vuris(&[&own, options].concat());
+    assert!(good, "{text}");
+    diagnosed::verdict(&out)
 }
 
 /// Twelve sets of 64 frames by a response of the power 2.2: many numbers of other effects explain most of it, one explains all.

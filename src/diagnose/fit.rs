@@ -61,10 +61,7 @@ fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
 /// The pixels' own numbers from a linear fit of the fundamental, led by steps to where the effects that the camera includes are there.
 fn start(data: &Data, noise: Noise, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
     let pixels = start_without_effects(data, counts);
-    let is_far = || {
-        let round = Round::new(data, &pixels, &[], noise, counts);
-        round.square > FAR * round.samples as f64
-    };
+    let is_far = || Round::new(data, &pixels, &[], noise, counts).is_far();
     if data.takes.iter().all(|take| take.included.is_empty()) || !is_far() {
         return pixels;
     }
@@ -154,8 +151,21 @@ const ENOUGH: f64 = 0.1;
 const WORSE: f64 = 1.01;
 const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
 
-/// Where the sum of squares is so many times the samples, the pixels' own numbers are settled before a step is judged.
-pub const FAR: f64 = 1.5;
+/// Where the sum of squares is so many times the samples, the mismatch is far above the noise: the pixels' own numbers are settled before a
+/// step is judged.
+const FAR: f64 = 1.5;
+
+impl Fit {
+    /// Whether what it leaves is far above the noise.
+    pub fn is_far(&self) -> bool {
+        self.chi2 > FAR * self.samples as f64
+    }
+
+    /// Whether `other` explains more of what this one leaves than the noise of its samples.
+    pub fn is_far_from(&self, other: &Self) -> bool {
+        self.chi2 - other.chi2 > self.samples as f64
+    }
+}
 
 /// The pixels with their own numbers as they fit best, but for what their tangents leave, beside `pieces` as they are.
 pub fn settled(
@@ -191,7 +201,7 @@ pub fn fit(
         }
         let stepped = DAMPINGS.into_iter().find_map(|damping| {
             let (mut pixels, pieces) = round.step(&pixels, pieces.clone(), damping);
-            if round.square > FAR * round.samples as f64 {
+            if round.is_far() {
                 pixels = settled(data, &pixels, &pieces, noise, counts);
             }
             let there = Round::new(data, &pixels, &pieces, noise, counts);
@@ -202,7 +212,7 @@ pub fn fit(
         let is_slow = better.2.square > (1.0 - SLOW) * round.square;
         (pixels, pieces, round) = better;
         // Far from any minimum, what hardly moves will not come there.
-        if is_slow && round.square > FAR * round.samples as f64 {
+        if is_slow && round.is_far() {
             break;
         }
     }
@@ -253,6 +263,10 @@ impl Round {
         let (theta, sigma) = bounded_step(&projected, &columns, pieces, pixels.full_scale_dn, 0.0);
         let gain = projected.settled + theta.dot(&projected.vector);
         Self { columns, projected, theta, sigma, gain, square: gram.chi2, samples: gram.samples, series }
+    }
+
+    fn is_far(&self) -> bool {
+        self.square > FAR * self.samples as f64
     }
 
     /// `pixels` and `pieces`, moved by the step with so much `damping`.

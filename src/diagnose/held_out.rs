@@ -6,7 +6,7 @@
 
 use super::columns::Tangents;
 use super::data::{Data, Take};
-use super::fit::{FAR, Fit, fit, improved, settled};
+use super::fit::{Fit, fit, improved, settled};
 use super::gram::{Noise, whiten};
 
 use crate::spec::SCHEMES;
@@ -67,11 +67,10 @@ struct Seen {
 /// Predicts every set of `data` by `before` and by `after`, neither of which has seen it.
 pub fn held_out(data: &Data, before: &Fit, after: &Fit, noise: Noise) -> HeldOut {
     let is_few = data.sets().len() < FOLDS * GROUP;
-    let is_far = before.chi2 > FAR * before.samples as f64;
     let predict = |fit: &Fit| -> Vec<Seen> {
         let parts = (0..if is_few { PARTS } else { FOLDS }).flat_map(|part| match is_few {
             true => predicted_frames(data, fit, noise, part),
-            false => predicted(data, fit, noise, part, is_far),
+            false => predicted(data, fit, noise, part, before.is_far()),
         });
         // In the order of the sets.
         parts.collect::<BTreeMap<usize, Seen>>().into_values().collect()

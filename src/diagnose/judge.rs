@@ -125,7 +125,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let kept = 0.5 * explained - OCCAM_NATS * found.named.len() as f64;
     let together: f64 = evidences.iter().sum::<f64>().max(kept);
     // Far from the baseline columns promise more than there is, and of several effects none is sure.
-    let is_far = explained > found.baseline.samples as f64;
+    let is_far = found.baseline.is_far_from(&found.fit);
     let simpler = found.named.len() > 1
         && !is_far
         && baseline.columns.first().is_some_and(|best| best.ln_bayes > together);
@@ -193,8 +193,7 @@ fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, Location) {
     let found = search(data, baseline.clone(), noise, true);
     let end = locate(data, &found.fit, noise);
     // Far from the baseline no form was trusted.
-    let is_far = found.baseline.chi2 - found.fit.chi2 > found.baseline.samples as f64;
-    if is_far || !found.trusts_forms() || places(data, &end).is_empty() {
+    if found.baseline.is_far_from(&found.fit) || !found.trusts_forms() || places(data, &end).is_empty() {
         return (found, end);
     }
     let found = search(data, baseline, noise, false);

@@ -168,28 +168,23 @@ impl Pass {
         candidates: &[Candidate],
         is_far: bool,
     ) -> Option<(Model, Fit, Vec<String>)> {
+        let explained = |fit: &Fit| before - fit.chi2 - fit.unreached;
         let judged = |(block, fit): (usize, Fit)| {
             let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);
-            let gain = before - fit.chi2 - fit.unreached;
-            (self.singles[block] + 0.5 * (gain - score), block, fit)
+            (self.singles[block] + 0.5 * (explained(&fit) - score), block, fit)
         };
         let mut judged: Vec<(f64, usize, Fit)> = fits.map(judged).collect();
         judged.sort_by(|a, b| b.0.total_cmp(&a.0));
         // Far from the baseline no form is exact: of those that explain about as much as the best one, the simplest.
-        let explained = |(_, _, fit): &(f64, usize, Fit)| before - fit.chi2 - fit.unreached;
-        let most = explained(judged.first()?);
-        let believed = |judged: &(f64, usize, Fit)| {
-            let left = DISBELIEF * tolerance(self.name(judged.1, candidates));
-            explained(judged) > (1.0 - left) * most
+        let most = explained(&judged.first()?.2);
+        let is_believed = |&place: &usize| {
+            let (_, block, fit) = &judged[place];
+            let left = DISBELIEF * tolerance(self.name(*block, candidates));
+            explained(fit) > (1.0 - left) * most
         };
-        let numbers = |judged: &(f64, usize, Fit)| judged.2.columns.len();
-        let place = if is_far {
-            let believed = (0..judged.len()).filter(|&place| believed(&judged[place]));
-            believed.min_by_key(|&place| numbers(&judged[place])).unwrap_or(0)
-        } else {
-            0
-        };
-        let (ln_bayes, block, fit) = judged.remove(place);
+        let believed = (0..judged.len()).filter(|place| is_far && is_believed(place));
+        let simplest = believed.min_by_key(|&place| judged[place].2.columns.len());
+        let (ln_bayes, block, fit) = judged.remove(simplest.unwrap_or(0));
         // What its form may leave does not tell it from others either.
         let form = 0.5 * tolerance(self.name(block, candidates)) * (before - fit.chi2);
         let least = ln_bayes - form.max(RIVAL_NATS);

@@ -72,12 +72,11 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
     let mut current = baseline.clone();
     let mut named: Vec<Named> = Vec::new();
     let mut first: Option<Pass> = None;
-    let samples = baseline.samples as f64;
     loop {
         let candidates = candidates(data, &current.series);
         let pass = Pass::of(data, &current, &candidates, noise);
         // Far from the baseline forms are not that well known.
-        let is_far = baseline.chi2 - current.chi2 > samples;
+        let is_far = baseline.is_far_from(&current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
         let next = pass.next(share * tolerated(&named), trust && !is_far);
         first.get_or_insert_with(|| {
@@ -102,8 +101,9 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
             if !is_far {
                 return Some((single, fitted, near));
             }
-            let complete = completed(data, fitted.clone(), noise);
-            let ln_bayes = single.ln_bayes + 0.5 * (fitted.chi2 - complete.chi2);
+            let chi2 = fitted.chi2;
+            let complete = completed(data, fitted, noise);
+            let ln_bayes = single.ln_bayes + 0.5 * (chi2 - complete.chi2);
             Some((Model { ln_bayes, ..single }, complete, near))
         };
         let is_far = pass.is_far(&whole, current.samples);

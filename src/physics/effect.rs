@@ -22,6 +22,8 @@ pub struct Parameter {
     pub is_choice: bool,
     /// A strength that says in another way what the others say: off as a rule, and fitted in their place.
     pub is_instead: bool,
+    /// A period in the code, which within the signals there are must come twice at least.
+    pub is_period_in_code: bool,
 }
 
 impl Parameter {
@@ -33,13 +35,29 @@ impl Parameter {
         bounds: (f64, f64),
         typical: f64,
     ) -> Self {
-        Self { name, unit, off, bounds, typical, shapes: &[], is_choice: false, is_instead: false }
+        Self {
+            name,
+            unit,
+            off,
+            bounds,
+            typical,
+            shapes: &[],
+            is_choice: false,
+            is_instead: false,
+            is_period_in_code: false,
+        }
     }
 
     /// The same in place of the other strengths.
     #[must_use]
     pub const fn instead(self) -> Self {
         Self { is_instead: true, ..self }
+    }
+
+    /// The same as a period in the code.
+    #[must_use]
+    pub const fn period_in_code(self) -> Self {
+        Self { is_period_in_code: true, ..self }
     }
 
     /// A shape: it matters only where a strength is not off.
@@ -50,7 +68,7 @@ impl Parameter {
         bounds: (f64, f64),
         shapes: &'static [f64],
     ) -> Self {
-        Self { name, unit, off: usual, bounds, typical: usual, shapes, is_choice: false, is_instead: false }
+        Self { shapes, ..Self::strength(name, unit, usual, bounds, usual) }
     }
 
     /// A shape that is one of `shapes`, the first of them as a rule.
@@ -59,13 +77,11 @@ impl Parameter {
         Self { is_choice: true, typical: last, ..Self::shape(name, unit, first, (first, last), shapes) }
     }
 
-    /// Least and greatest value where signals go up to `full_scale_dn`: what repeats with the code does so twice at least.
+    /// Least and greatest value where signals go up to `full_scale_dn`.
     pub fn bounds_within(&self, full_scale_dn: f64) -> (f64, f64) {
         let (low, high) = self.bounds;
-        if self.is_shape() && self.name == "period_dn" {
-            return (low.min(full_scale_dn / 2.0), high.min(full_scale_dn / 2.0));
-        }
-        (low, high)
+        let most = if self.is_period_in_code { full_scale_dn / 2.0 } else { f64::INFINITY };
+        (low.min(most), high.min(most))
     }
 
     /// How far from off it may be.

@@ -11,7 +11,8 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("cosine_dn", "DN", 0.0, (-50.0, 50.0), 1.0),
         Parameter::strength("sine_dn", "DN", 0.0, (-50.0, 50.0), 1.0),
-        Parameter::shape("period_dn", "DN", 256.0, (16.0, 2048.0), &[64.0, 128.0, 256.0, 512.0, 1024.0]),
+        Parameter::shape("period_dn", "DN", 256.0, (16.0, 2048.0), &[64.0, 128.0, 256.0, 512.0, 1024.0])
+            .period_in_code(),
     ],
     place: Place::Readout,
     chance: Chance::None,

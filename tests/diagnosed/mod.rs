@@ -1,0 +1,28 @@
+//! What the tests of `vuris diagnose` share: the program run, its verdict on a campaign, the names in it.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::Path;
+
+/// Whether `vuris` succeeds with these arguments, and all that it says.
+pub fn vuris(arguments: &[&str]) -> (bool, String) {
+    let output = Command::cargo_bin("vuris").unwrap().args(arguments).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    (output.status.success(), text.into_owned())
+}
+
+/// What is said of `campaign`.
+pub fn verdict(campaign: &Path) -> Value {
+    let (good, text) = vuris(&["diagnose", campaign.to_str().unwrap(), "--json", "-"]);
+    assert!(good, "{text}");
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// The effects that are asserted, by their names' order.
+pub fn names(verdict: &Value) -> Vec<String> {
+    let effects = verdict["effects"].as_array().unwrap();
+    let mut names: Vec<String> =
+        effects.iter().map(|effect| effect["name"].as_str().unwrap().to_owned()).collect();
+    names.sort();
+    names
+}
