@@ -71,7 +71,7 @@ pub fn phasors(chain: &Chain, sensor: &Sensor, scheme: &Scheme, course: &Course)
         let mut sums = vec![Complex64::ZERO; chain.pixels.count()];
         for (frame, coefficient) in coefficients.iter().enumerate() {
             let signal = simulation.signal(course, set * course.frames() + frame);
-            sums.iter_mut().zip(signal).for_each(|(sum, signal)| *sum += coefficient * signal);
+            sums.iter_mut().zip(&signal).for_each(|(sum, signal)| *sum += coefficient * signal);
         }
         sums
     };

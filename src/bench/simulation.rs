@@ -2,10 +2,9 @@
 
 use super::course::Course;
 use crate::frames::RawSets;
-use crate::physics::{Chain, Draws, EFFECTS, Exposure, Memory, Sensor};
+use crate::physics::{Chain, Draws, EFFECTS, Exposure, Memory, PerPixel, Sensor};
 use crate::problem::{Problem, Result};
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// A camera that takes frames.
 #[derive(Debug, Clone, Copy)]
@@ -48,7 +47,7 @@ impl Simulation<'_> {
         &self,
         course: &Course,
         index: usize,
-        before_dn: Option<Arc<Vec<f64>>>,
+        before_dn: Option<PerPixel>,
     ) -> (Exposure, Vec<f64>) {
         let pixels = self.chain.pixels.count();
         let moment = course.moment(index);
@@ -64,11 +63,12 @@ impl Simulation<'_> {
                 self.chain.arrive(course.before(index), Memory { deviates, ..Memory::default() })
             })
         });
-        (self.chain.expose(moment, Memory { before_dn, deviates, pixel_deviates, noisy: self.noise }), noise)
+        let memory = Memory { before_dn, deviates, pixel_deviates, noisy: self.noise, ..Memory::default() };
+        (self.chain.expose(moment, memory), noise)
     }
 
     /// The signal of frame number `index` of `course`, DN above the pedestal, before noise and converter.
-    pub fn signal(&self, course: &Course, index: usize) -> Vec<f64> {
+    pub fn signal(&self, course: &Course, index: usize) -> PerPixel {
         self.expose(course, index, None).0.signal_dn
     }
 

@@ -3,7 +3,7 @@
 use super::data::Data;
 use super::pieces::{Piece, active};
 use crate::bench::chain;
-use crate::physics::{Active, Chain, Memory, Moment, Pixels};
+use crate::physics::{Active, Chain, Exposure, Memory, Moment, PerPixel, Pixels, Waveform};
 use std::sync::Arc;
 
 /// The numbers of a pixel that are fitted beside everything else: amplitude at 1 m, phase, constant light at 1 m, ambient light.
@@ -46,11 +46,11 @@ pub struct Tangents<'a> {
 /// What one frame gives.
 pub struct Frame {
     /// The base's signal, DN.
-    pub base: Vec<f64>,
+    pub base: PerPixel,
     /// Tangents by the pixel's own numbers, `[number][pixel]`.
     pub own: [Vec<f64>; OWN],
     /// Ambient light, DN.
-    pub ambient: Vec<f64>,
+    pub ambient: PerPixel,
     /// By the target's position, DN a metre.
     pub position: Vec<f64>,
     /// Tangents of the columns; empty where a column does not act in this recording.
@@ -65,7 +65,7 @@ const POSITION_STEP_M: f64 = 1e-6;
 
 fn own_pixels(pixels: &Pixels, number: usize) -> (Pixels, f64) {
     let mut changed = pixels.clone();
-    let (values, step) = match number {
+    let (values, step): (&mut [f64], f64) = match number {
         0 => (&mut changed.amplitude_1m_dn, 0.1),
         1 => (&mut changed.phase_rad, 1e-4),
         2 => (&mut changed.constant_1m_dn, 0.1),
@@ -137,9 +137,9 @@ impl<'a> Tangents<'a> {
     }
 
     /// The base's signal alone, DN.
-    pub fn base(&self, take: usize, index: usize) -> Vec<f64> {
+    pub fn base(&self, take: usize, index: usize) -> PerPixel {
         let moments = &self.data.takes[take].moments;
-        expose(&self.chains[take].base, moments[index], before(moments, index))
+        expose(&self.chains[take].base, moments[index], before(moments, index), None).signal_dn
     }
 
     /// Frame number `index` of recording `take`.
@@ -148,10 +148,11 @@ impl<'a> Tangents<'a> {
         let moment = moments[index];
         let chains = &self.chains[take];
         let before = before(moments, index);
-        let expose = |chain: &Chain, moment: Moment| expose(chain, moment, before);
+        let Exposure { signal_dn: base, waveform, .. } = expose(&chains.base, moment, before, None);
+        // Most of what is tried leaves the phases as they are.
+        let expose = |chain, moment| expose(chain, moment, before, waveform.clone()).signal_dn;
         let ambient = chains.base.pixels.ambient_dn.clone();
-        let base = expose(&chains.base, moment);
-        let difference = |signal: Vec<f64>, step: f64| -> Vec<f64> {
+        let difference = |signal: PerPixel, step: f64| -> Vec<f64> {
             signal.iter().zip(&base).map(|(changed, base)| (changed - base) / step).collect()
         };
         let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
@@ -160,7 +161,7 @@ impl<'a> Tangents<'a> {
         let stations = if chains.columns.iter().any(|change| matches!(change, Some(Change::More(..)))) {
             let looks_back = chains.looks_back || chains.base.looks_back();
             let before_dn = looks_back.then(|| chains.base.arrive(before, Memory::default()));
-            chains.base.stations(moment, Memory { before_dn, ..Memory::default() })
+            chains.base.stations(moment, Memory { before_dn, waveform: waveform.clone(), ..Memory::default() })
         } else {
             Vec::new()
         };
@@ -188,10 +189,10 @@ impl<'a> Tangents<'a> {
     }
 }
 
-/// The signal of `chain` at `moment`, DN, after the frame `before`.
-fn expose(chain: &Chain, moment: Moment, before: Moment) -> Vec<f64> {
+/// The frame of `chain` at `moment`, after the frame `before`, with the `waveform` where it is at hand.
+fn expose(chain: &Chain, moment: Moment, before: Moment, waveform: Option<Arc<Waveform>>) -> Exposure {
     let before_dn = chain.looks_back().then(|| chain.arrive(before, Memory::default()));
-    chain.expose(moment, Memory { before_dn, ..Memory::default() }).signal_dn
+    chain.expose(moment, Memory { before_dn, waveform, ..Memory::default() })
 }
 
 /// The frame before: of the same set, or, of a set's first, what a camera that runs on evenly had taken then.

@@ -51,7 +51,7 @@ const MODES: [&str; 3] = ["offset", "gain", "phase"];
 fn mode(view: &View, mode: usize) -> Vec<f64> {
     match mode {
         0 => vec![1.0; view.frame.base.len()],
-        1 => view.frame.base.clone(),
+        1 => view.frame.base.to_vec(),
         _ => view.frame.own[1].clone(),
     }
 }

@@ -50,7 +50,7 @@ fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
         phase_rad,
         amplitude_1m_dn,
         constant_1m_dn,
-        ambient_dn,
+        ambient_dn: ambient_dn.into(),
         full_scale_dn: f64::from(camera.full_scale()) - camera.pedestal_dn,
         pedestal_dn: camera.pedestal_dn,
         edges,

@@ -136,7 +136,7 @@ impl Camera {
             phase_rad: vec![0.0],
             amplitude_1m_dn: vec![AMPLITUDE_1M_DN],
             constant_1m_dn: vec![constant_ratio * AMPLITUDE_1M_DN],
-            ambient_dn: vec![AMBIENT_DN],
+            ambient_dn: vec![AMBIENT_DN].into(),
             full_scale_dn: sensor.full_scale_dn(),
             pedestal_dn: sensor.pedestal_dn,
             edges: Vec::new(),

@@ -1,9 +1,10 @@
 //! The chain: places one after the other, with the effects that act at each.
 
-use super::correlation::Correlation;
+use super::correlation::{Correlation, Waveform};
 use super::effect::{Active, Chance, Place};
 use super::effects;
 use super::exposure::{Exposure, Included, Moment};
+use super::per_pixel::PerPixel;
 use super::pixels::Pixels;
 use std::sync::Arc;
 
@@ -24,7 +25,9 @@ pub struct Chain {
 #[derive(Debug, Clone, Default)]
 pub struct Memory {
     /// What light brought to the pixels in the frame before, DN.
-    pub before_dn: Option<Arc<Vec<f64>>>,
+    pub before_dn: Option<PerPixel>,
+    /// The waveform at phases that the frame's may be, where it is at hand.
+    pub waveform: Option<Arc<Waveform>>,
     /// Draws from the standard normal distribution for this frame, one for each of [`Chain::effects`], in its order; where there are none, 0.
     pub deviates: Vec<f64>,
     /// Draws for its pixels; empty where no effect needs any.
@@ -78,9 +81,9 @@ impl Chain {
     }
 
     fn begin(&self, moment: Moment, memory: Memory) -> Exposure {
-        let Memory { before_dn, deviates, pixel_deviates, noisy } = memory;
+        let Memory { before_dn, waveform, deviates, pixel_deviates, noisy } = memory;
         let exposure = Exposure::new(moment, &self.pixels, self.included, &self.correlation);
-        Exposure { before_dn, deviates, pixel_deviates, noisy, ..exposure }
+        Exposure { before_dn, waveform, deviates, pixel_deviates, noisy, ..exposure }
     }
 
     /// Cuts low bits off noisy codes, where the camera's arithmetic does.
@@ -102,10 +105,10 @@ impl Chain {
     }
 
     /// What light brings to the pixels at `moment`, before charge goes anywhere, DN.
-    pub fn arrive(&self, moment: Moment, memory: Memory) -> Arc<Vec<f64>> {
+    pub fn arrive(&self, moment: Moment, memory: Memory) -> PerPixel {
         let mut exposure = self.begin(moment, memory);
         self.run_between(&mut exposure, Place::Encoder, Place::Correlation);
-        Arc::new(exposure.signal_dn)
+        exposure.signal_dn
     }
 
     /// Takes `exposure` from `first`, whose own step is done again, to the end of the chain.
@@ -120,7 +123,7 @@ impl Chain {
                 Place::Path => exposure.look(),
                 Place::Light => exposure.light(),
                 Place::Correlation => exposure.correlate(),
-                Place::Charge => exposure.arrived_dn = Arc::new(exposure.signal_dn.clone()),
+                Place::Charge => exposure.arrived_dn = exposure.signal_dn.clone(),
             }
             let acting = self.effects.iter().enumerate().filter(|(_, active)| active.effect.place == place);
             for (number, Active { effect, values }) in acting {

@@ -1,6 +1,8 @@
 //! The correlation waveform: what light and sensor make of the phase between them.
 
+use super::per_pixel::PerPixel;
 use super::trig::cos_sin;
+use std::sync::Arc;
 
 /// The modulation frequency of the paper's linearity measurements, Hz (Drayton, Carnegie, Dorrington 2012), and so of
 /// [`Correlation::measured`]. Elsewhere, as for the paper's motion, it is assumed.
@@ -9,7 +11,7 @@ pub const FREQUENCY_HZ: f64 = 30e6;
 /// The correlation of the modulated light with the sensor's own modulation, as harmonics of the modulation frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correlation {
-    harmonics: Vec<Harmonic>,
+    harmonics: Arc<Vec<Harmonic>>,
 }
 
 /// One harmonic of the correlation waveform.
@@ -32,7 +34,7 @@ impl Correlation {
     /// The fundamental and `harmonics`.
     pub fn with_harmonics(harmonics: &[Harmonic]) -> Self {
         let fundamental = Harmonic { number: 1, amplitude: 1.0, phase_rad: 0.0 };
-        Self { harmonics: std::iter::once(fundamental).chain(harmonics.iter().copied()).collect() }
+        Self { harmonics: Arc::new(std::iter::once(fundamental).chain(harmonics.iter().copied()).collect()) }
     }
 
     /// The measured camera: harmonics 2 to 7 at 1/105, 1/31, 1/500, 1/1020, 1/926 and 1/1449 of the fundamental
@@ -49,7 +51,7 @@ impl Correlation {
     /// Adds a_m cos(m · angle + p_m) for the harmonic `number` (>= 1), by its parts: `cosine` · cos(m · angle) + `sine` · sin(m · angle).
     pub fn add_harmonic(&mut self, number: u32, cosine: f64, sine: f64) {
         let amplitude = libm::hypot(cosine, sine);
-        self.harmonics.push(Harmonic { number, amplitude, phase_rad: libm::atan2(-sine, cosine) });
+        Arc::make_mut(&mut self.harmonics).push(Harmonic { number, amplitude, phase_rad: libm::atan2(-sine, cosine) });
     }
 
     /// The harmonics, the fundamental among them.
@@ -72,8 +74,18 @@ impl Correlation {
 
     /// Adds to `sum_dn`, a pixel at a time, amplitude · waveform(angle − phase).
     pub fn add(&self, amplitude_dn: &[f64], phase_rad: &[f64], angle_rad: f64, sum_dn: &mut [f64]) {
+        let relative = self.relative(phase_rad, angle_rad);
+        for ((sum, amplitude), relative) in sum_dn.iter_mut().zip(amplitude_dn).zip(relative) {
+            *sum += amplitude * relative;
+        }
+    }
+
+    /// waveform(angle − phase), a pixel at a time, relative to the fundamental's amplitude.
+    fn relative(&self, phase_rad: &[f64], angle_rad: f64) -> Vec<f64> {
+        let mut relative = vec![0.0; phase_rad.len()];
         let parts = self.parts();
-        pulp::Arch::new().dispatch(Sum { parts: &parts, amplitude_dn, phase_rad, angle_rad, sum_dn });
+        pulp::Arch::new().dispatch(LookUp { parts: &parts, phase_rad, angle_rad, relative: &mut relative });
+        relative
     }
 
     /// Σ a_m cos(m · angle + p_m): the waveform at `angle_rad`, relative to the fundamental's amplitude.
@@ -84,26 +96,51 @@ impl Correlation {
     }
 }
 
+/// A correlation waveform at the phases of many pixels.
+#[derive(Debug)]
+pub struct Waveform {
+    correlation: Correlation,
+    phase_rad: PerPixel,
+    angle_rad: f64,
+    relative: Vec<f64>,
+}
+
+impl Waveform {
+    /// `correlation` at `angle_rad` less the pixels' phases.
+    pub fn of(correlation: &Correlation, phase_rad: &PerPixel, angle_rad: f64) -> Self {
+        let relative = correlation.relative(phase_rad, angle_rad);
+        Self { correlation: correlation.clone(), phase_rad: phase_rad.clone(), angle_rad, relative }
+    }
+
+    /// Whether it is what [`Self::of`] would give.
+    pub fn is_of(&self, correlation: &Correlation, phase_rad: &PerPixel, angle_rad: f64) -> bool {
+        self.angle_rad == angle_rad && self.correlation == *correlation && self.phase_rad == *phase_rad
+    }
+
+    /// A value a pixel, relative to the fundamental's amplitude.
+    pub fn relative(&self) -> &[f64] {
+        &self.relative
+    }
+}
+
 /// Pixels that are done together, harmonic after harmonic: so the compiler does several at once.
 const BLOCK: usize = 64;
 
-/// What [`Correlation::add`] does, with the widest registers that the machine has; without fused operations the bits are the same on all.
-struct Sum<'a> {
+/// What [`Correlation::relative`] does, with the widest registers that the machine has; without fused operations the bits are the same on all.
+struct LookUp<'a> {
     parts: &'a [(f64, f64)],
-    amplitude_dn: &'a [f64],
     phase_rad: &'a [f64],
     angle_rad: f64,
-    sum_dn: &'a mut [f64],
+    relative: &'a mut [f64],
 }
 
-impl pulp::NullaryFnOnce for Sum<'_> {
+impl pulp::NullaryFnOnce for LookUp<'_> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        let Self { parts, amplitude_dn, phase_rad, angle_rad, sum_dn } = self;
-        let blocks = sum_dn.chunks_mut(BLOCK).zip(amplitude_dn.chunks(BLOCK)).zip(phase_rad.chunks(BLOCK));
-        for ((sum_dn, amplitude_dn), phase_rad) in blocks {
+        let Self { parts, phase_rad, angle_rad, relative } = self;
+        for (relative, phase_rad) in relative.chunks_mut(BLOCK).zip(phase_rad.chunks(BLOCK)) {
             let (mut cosine, mut sine) = ([1.0; BLOCK], [0.0; BLOCK]);
             for ((cosine, sine), phase_rad) in cosine.iter_mut().zip(&mut sine).zip(phase_rad) {
                 (*cosine, *sine) = cos_sin(angle_rad - phase_rad);
@@ -118,9 +155,7 @@ impl pulp::NullaryFnOnce for Sum<'_> {
                     waveform[n] += in_phase * turned.0[n] + quadrature * turned.1[n];
                 }
             }
-            for ((sum, amplitude), waveform) in sum_dn.iter_mut().zip(amplitude_dn).zip(&waveform) {
-                *sum += amplitude * waveform;
-            }
+            relative.copy_from_slice(&waveform[..relative.len()]);
         }
     }
 }

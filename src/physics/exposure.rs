@@ -2,7 +2,8 @@
 //!
 //! All charges are in DN above the pedestal: electrons over the gain. Arrays have one entry a pixel, row by row.
 
-use super::correlation::Correlation;
+use super::correlation::{Correlation, Waveform};
+use super::per_pixel::PerPixel;
 use super::pixels::Pixels;
 use crate::units::phase_rad;
 use std::sync::Arc;
@@ -86,23 +87,25 @@ pub struct Exposure {
     /// Phase of the demodulation against the light: step and offset, rad.
     pub angle_rad: f64,
     /// Radial range, m.
-    pub range_m: Vec<f64>,
+    pub range_m: PerPixel,
     /// Phase, rad: of the range, and the pixel's own.
-    pub phase_rad: Vec<f64>,
+    pub phase_rad: PerPixel,
     /// Amplitude of the fundamental, DN.
-    pub amplitude_dn: Vec<f64>,
+    pub amplitude_dn: PerPixel,
     /// The constant part of the camera's own light, DN.
-    pub constant_dn: Vec<f64>,
+    pub constant_dn: PerPixel,
     /// Ambient light, DN.
-    pub ambient_dn: Vec<f64>,
+    pub ambient_dn: PerPixel,
     /// The correlation waveform.
     pub correlation: Correlation,
     /// Charge above the pedestal, DN.
-    pub signal_dn: Vec<f64>,
+    pub signal_dn: PerPixel,
     /// What light brought to the pixels, DN, before charge went anywhere.
-    pub arrived_dn: Arc<Vec<f64>>,
+    pub arrived_dn: PerPixel,
     /// The same of the frame before; nothing where there was none.
-    pub before_dn: Option<Arc<Vec<f64>>>,
+    pub before_dn: Option<PerPixel>,
+    /// The waveform at the pixels' phases, as it was looked up last: it is looked up again only where something has changed.
+    pub waveform: Option<Arc<Waveform>>,
     /// Draws from the standard normal distribution for this frame, one for each of the chain's effects.
     pub deviates: Vec<f64>,
     /// That of the effect that acts just now; 0 where there is none.
@@ -127,15 +130,16 @@ impl Exposure {
             falloff_share: f64::from(u8::from(included.inverse_square_falloff)),
             frequency_hz: moment.frequency_hz,
             angle_rad: moment.offset_rad + moment.step_rad,
-            range_m: Vec::new(),
-            phase_rad: Vec::new(),
-            amplitude_dn: Vec::new(),
-            constant_dn: Vec::new(),
-            ambient_dn: Vec::new(),
+            range_m: PerPixel::default(),
+            phase_rad: PerPixel::default(),
+            amplitude_dn: PerPixel::default(),
+            constant_dn: PerPixel::default(),
+            ambient_dn: PerPixel::default(),
             correlation: correlation.clone(),
-            signal_dn: Vec::new(),
-            arrived_dn: Arc::default(),
+            signal_dn: PerPixel::default(),
+            arrived_dn: PerPixel::default(),
             before_dn: None,
+            waveform: None,
             deviates: Vec::new(),
             deviate: 0.0,
             noisy: false,
@@ -201,15 +205,20 @@ impl Exposure {
         let times = |of: &[f64]| of.iter().zip(&shares).map(|(light, share)| light * share).collect();
         self.amplitude_dn = times(&pixels.amplitude_1m_dn);
         self.constant_dn = times(&pixels.constant_1m_dn);
-        self.ambient_dn.clone_from(&pixels.ambient_dn);
+        self.ambient_dn = pixels.ambient_dn.clone();
     }
 
     /// Charge from light: amplitude times waveform, and what is constant.
     pub fn correlate(&mut self) {
+        let known = self.waveform.take().filter(|known| {
+            known.is_of(&self.correlation, &self.phase_rad, self.angle_rad)
+        });
+        let waveform = known
+            .unwrap_or_else(|| Arc::new(Waveform::of(&self.correlation, &self.phase_rad, self.angle_rad)));
         let offsets = self.constant_dn.iter().zip(&self.ambient_dn).map(|(own, ambient)| own + ambient);
-        let mut signal_dn: Vec<f64> = offsets.collect();
-        self.correlation.add(&self.amplitude_dn, &self.phase_rad, self.angle_rad, &mut signal_dn);
-        self.signal_dn = signal_dn;
+        let varying = self.amplitude_dn.iter().zip(waveform.relative()).map(|(dn, relative)| dn * relative);
+        self.signal_dn = offsets.zip(varying).map(|(offset, varying)| offset + varying).collect();
+        self.waveform = Some(waveform);
     }
 
     /// The camera's own light times `factor`.

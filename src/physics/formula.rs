@@ -111,7 +111,7 @@ impl Formula {
         };
         let count = exposure.pixels.count();
         let changes: Vec<f64> = (0..count).map(|pixel| change(exposure, &mut arguments, pixel)).collect();
-        let (values, is_share): (&mut [&mut Vec<f64>], bool) = match self.target {
+        let (values, is_share): (&mut [&mut [f64]], bool) = match self.target {
             Target::Signal => (&mut [&mut exposure.signal_dn], false),
             Target::Phase => (&mut [&mut exposure.phase_rad], false),
             Target::Amplitude => (&mut [&mut exposure.amplitude_dn, &mut exposure.constant_dn], true),

@@ -1,5 +1,6 @@
 //! What is true of each pixel in all frames.
 
+use super::per_pixel::PerPixel;
 use crate::frames::Geometry;
 
 /// The pixels of a camera before a scene. Arrays have one entry a pixel, row by row.
@@ -20,7 +21,7 @@ pub struct Pixels {
     /// The constant part of the camera's own light, DN, at 1 m.
     pub constant_1m_dn: Vec<f64>,
     /// Ambient light, DN.
-    pub ambient_dn: Vec<f64>,
+    pub ambient_dn: PerPixel,
     /// Code of full scale, DN above the pedestal.
     pub full_scale_dn: f64,
     /// Code at no light, DN.

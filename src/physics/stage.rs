@@ -94,7 +94,7 @@ impl Stage {
             phase_rad: fixed_pattern.iter().map(|draw| self.fixed_pattern_rad * draw).collect(),
             constant_1m_dn: amplitude_1m_dn.iter().map(|a| sensor.constant_ratio * a).collect(),
             amplitude_1m_dn,
-            ambient_dn: vec![sensor.ambient_e / sensor.gain_e_per_dn; geometry.pixels()],
+            ambient_dn: vec![sensor.ambient_e / sensor.gain_e_per_dn; geometry.pixels()].into(),
             full_scale_dn: sensor.full_scale_dn(),
             pedestal_dn: sensor.pedestal_dn,
             edge_counts: Pixels::edge_counts_of(&edges),

@@ -29,6 +29,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     let pixels = Arc::clone(&exposure.pixels);
     let count = exposure.range_m.len();
     let (mut amplitudes, mut phases) = (vec![0.0; count], vec![0.0; count]);
+    let signal_dn: &mut [f64] = &mut exposure.signal_dn;
     for pixel in (0..count).filter(|&pixel| pixels.target[pixel]) {
         let range_m = exposure.range_m[pixel];
         let back_m = (range_m * range_m + 4.0 * wall_m * wall_m).sqrt();
@@ -36,7 +37,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         amplitudes[pixel] = part * exposure.amplitude_dn[pixel];
         phases[pixel] =
             exposure.phase_rad[pixel] + phase_rad((back_m - range_m) / 2.0, exposure.frequency_hz);
-        exposure.signal_dn[pixel] += part * exposure.constant_dn[pixel];
+        signal_dn[pixel] += part * exposure.constant_dn[pixel];
     }
     exposure.add_path(&amplitudes, &phases);
 }
