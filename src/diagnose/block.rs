@@ -2,7 +2,7 @@
 
 use super::columns::OWN;
 use super::data::Data;
-use super::gram::{Filled, Whitened};
+use super::gram::Whitened;
 use nalgebra::{DMatrix, DVector};
 
 /// Columns that are solved together, and, last, the residual.
@@ -16,45 +16,29 @@ pub struct Block {
     pub position: Vec<DVector<f64>>,
 }
 
-/// A few frames, whitened, one after the other: a row a pixel.
-#[derive(Default)]
-pub struct Rows {
+/// One frame, whitened: a row a pixel.
+pub struct Rows<'a> {
     /// By the pixel's own numbers.
     pub own: Vec<[f64; OWN]>,
     /// By the set's position.
     pub position: Vec<f64>,
     /// Root of the weight.
-    pub roots: Vec<f64>,
+    pub roots: &'a [f64],
     /// Residual.
-    pub residual: Vec<f64>,
-    /// Of each frame, not whitened: the columns that all blocks share, and those of each block.
-    pub columns: Vec<(Vec<Vec<f64>>, Filled)>,
+    pub residual: &'a [f64],
 }
 
-impl Rows {
-    /// With a frame, whose columns are to follow.
-    pub fn push(&mut self, data: &Data, whitened: &Whitened) {
+impl<'a> Rows<'a> {
+    /// Those of a frame.
+    pub fn of(data: &Data, whitened: &Whitened<'a>) -> Self {
         let Whitened { frame, roots, residual, .. } = *whitened;
-        for (pixel, &root) in roots.iter().enumerate() {
+        let own = |(pixel, &root): (usize, &f64)| {
             // A background never moves: as long as the light is on, its constant light is ambient light.
             let constant = if data.tells_constant(pixel) { frame.own[2][pixel] } else { 0.0 };
-            let own = [frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]];
-            self.own.push(own.map(|own| root * own));
-            self.position.push(root * frame.position[pixel]);
-        }
-        self.roots.extend_from_slice(roots);
-        self.residual.extend_from_slice(residual);
-    }
-
-    /// Of each frame, the columns that block `number` has there, by their numbers: first the `shared` ones.
-    pub fn active(&self, number: usize, shared: usize) -> Vec<Vec<(usize, &[f64])>> {
-        let mut active = Vec::new();
-        for (common, filled) in &self.columns {
-            let common = common.iter().enumerate().map(|(column, values)| (column, &values[..]));
-            let own = filled[number].iter().map(|(column, values)| (shared + column, &values[..]));
-            active.push(common.chain(own).filter(|(_, values)| !values.is_empty()).collect());
-        }
-        active
+            [frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]].map(|own| root * own)
+        };
+        let position = roots.iter().zip(&frame.position).map(|(root, position)| root * position);
+        Self { own: roots.iter().enumerate().map(own).collect(), position: position.collect(), roots, residual }
     }
 }
 
@@ -79,28 +63,20 @@ impl Block {
         }
     }
 
-    /// With `rows` of number `set`, whose columns are `active` frame by frame.
-    pub fn add(&mut self, set: usize, rows: &Rows, active: &[Vec<(usize, &[f64])>]) {
+    /// With `rows` of a frame of number `set`, in which the columns `active` act, by their numbers.
+    pub fn add(&mut self, set: usize, rows: &Rows, active: &[(usize, &[f64])]) {
         let last = self.full.nrows() - 1;
-        let pixels = self.mixed.nrows() / OWN;
-        let mut numbers: Vec<usize> = active.iter().flatten().map(|(number, _)| *number).collect();
-        numbers.sort_unstable();
-        numbers.dedup();
-        let mut values = DMatrix::<f64>::zeros(rows.roots.len(), numbers.len() + 1);
-        for (frame, columns) in active.iter().enumerate() {
-            let roots = &rows.roots[frame * pixels..][..pixels];
-            for (number, column) in columns {
-                let Ok(place) = numbers.binary_search(number) else { continue };
-                let mut of_frame = values.column_mut(place);
-                let of_frame = of_frame.as_mut_slice()[frame * pixels..][..pixels].iter_mut();
-                of_frame.zip(roots).zip(*column).for_each(|((value, root), column)| *value = root * column);
-            }
+        // The columns, the residual, and the set's position.
+        let mut values = DMatrix::<f64>::zeros(rows.roots.len(), active.len() + 2);
+        for ((_, column), mut values) in active.iter().zip(values.column_iter_mut()) {
+            let values = values.as_mut_slice().iter_mut();
+            values.zip(rows.roots).zip(*column).for_each(|((value, root), column)| *value = root * column);
         }
-        values.column_mut(numbers.len()).copy_from_slice(&rows.residual);
-        numbers.push(last);
-        let turned = values.transpose();
-        let product = &turned * &values;
-        let along = turned * DVector::from_column_slice(&rows.position);
+        values.column_mut(active.len()).copy_from_slice(rows.residual);
+        values.column_mut(active.len() + 1).copy_from_slice(&rows.position);
+        let numbers: Vec<usize> = active.iter().map(|(number, _)| *number).chain([last]).collect();
+        let product = values.transpose() * &values;
+        let along = product.column(numbers.len());
         for (a, &row) in numbers.iter().enumerate() {
             for (b, &column) in numbers.iter().enumerate() {
                 self.full[(row, column)] += product[(a, b)];
@@ -115,7 +91,7 @@ impl Block {
     }
 }
 
-/// Adds a column's products with the pixels' own numbers to their sums, all frames of a pixel at once.
+/// Adds a column's products with the pixels' own numbers to their sums.
 struct Mix<'a> {
     own: &'a [[f64; OWN]],
     values: &'a [f64],
@@ -127,17 +103,10 @@ impl pulp::NullaryFnOnce for Mix<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let pixels = self.sums.len() / OWN;
-        for (pixel, sums) in self.sums.chunks_exact_mut(OWN).enumerate() {
-            let mut total = [0.0; OWN];
-            let frames =
-                self.own[pixel..].iter().step_by(pixels).zip(self.values[pixel..].iter().step_by(pixels));
-            for (own, value) in frames {
-                for (total, own) in total.iter_mut().zip(own) {
-                    *total += own * value;
-                }
+        for ((sums, own), value) in self.sums.chunks_exact_mut(OWN).zip(self.own).zip(self.values) {
+            for (sum, own) in sums.iter_mut().zip(own) {
+                *sum += own * value;
             }
-            sums.iter_mut().zip(total).for_each(|(sum, total)| *sum += total);
         }
     }
 }

@@ -1,13 +1,14 @@
 //! The fit of the full forward model: the pixels' own numbers and the effects' parameters together, by Gauss and Newton.
 
 use super::columns::{Column, OWN, Tangents};
-use super::data::Data;
+use super::data::{Data, Take};
 use super::gram::{Gram, Noise, Projected, Whitened};
 use super::lines::Series;
 use super::pieces::Piece;
 use crate::bench::chain;
 use crate::physics::{Chain, Memory, Pixels};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// A fitted model.
@@ -90,29 +91,36 @@ fn start_without_effects(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -
         unit(0.0, 0.0, 1.0, 0.0),
         unit(0.0, 0.0, 0.0, 1.0),
     ];
-    let mut normal = vec![(Matrix4::<f64>::zeros(), Vector4::<f64>::zeros()); count];
-    let mut number = 0;
-    for take in &data.takes {
-        for (index, moment) in take.moments.iter().enumerate() {
-            if index % take.frames == 0 {
-                number += 1;
-            }
-            if !counts(number - 1) {
-                continue;
-            }
-            let signals = basis.each_ref().map(|chain| chain.expose(*moment, Memory::default()).signal_dn);
-            for pixel in 0..count {
-                let measured = f64::from(take.signal_dn[index * count + pixel]);
-                if measured.is_nan() {
-                    continue;
-                }
-                let constant = if data.tells_constant(pixel) { signals[2][pixel] } else { 0.0 };
-                let own = Vector4::new(signals[0][pixel], signals[1][pixel], constant, signals[3][pixel]);
-                normal[pixel].0 += own * own.transpose();
-                normal[pixel].1 += own * measured;
-            }
+    let none = || vec![(Matrix4::<f64>::zeros(), Vector4::<f64>::zeros()); count];
+    let add = |mut normal: Vec<(Matrix4<f64>, Vector4<f64>)>, take: &Take, index: usize| {
+        let expose = |chain: &Chain| chain.expose(take.moments[index], Memory::default()).signal_dn;
+        let signals = basis.each_ref().map(expose);
+        let measured = &take.signal_dn[index * count..(index + 1) * count];
+        for (pixel, &measured) in measured.iter().enumerate().filter(|(_, measured)| !measured.is_nan()) {
+            let constant = if data.tells_constant(pixel) { signals[2][pixel] } else { 0.0 };
+            let own = Vector4::new(signals[0][pixel], signals[1][pixel], constant, signals[3][pixel]);
+            normal[pixel].0 += own * own.transpose();
+            normal[pixel].1 += own * f64::from(measured);
         }
-    }
+        normal
+    };
+    let sets: Vec<(usize, (usize, usize))> =
+        data.sets().into_iter().enumerate().filter(|&(number, _)| counts(number)).collect();
+    let chunk = sets.len().div_ceil(rayon::current_num_threads()).max(1);
+    let normal = sets.par_chunks(chunk).map(|sets| {
+        let indices = |&(_, (take, set)): &(usize, (usize, usize))| {
+            let take = &data.takes[take];
+            (set * take.frames..(set + 1) * take.frames).map(move |index| (take, index))
+        };
+        sets.iter().flat_map(indices).fold(none(), |normal, (take, index)| add(normal, take, index))
+    });
+    let normal = normal.reduce(none, |mut normal, others| {
+        normal.iter_mut().zip(others).for_each(|(sum, other)| {
+            sum.0 += other.0;
+            sum.1 += other.1;
+        });
+        normal
+    });
     let mut numbers = [(); OWN].map(|()| vec![0.0; count]);
     for (pixel, (matrix, vector)) in normal.iter().enumerate() {
         let solution = matrix.svd(true, true).solve(vector, 1e-9 * matrix.norm()).unwrap_or_default();

@@ -63,8 +63,6 @@ impl Noise {
     }
 }
 
-/// Frames of a set that are summed together: each pass over the sums takes as long as memory does.
-const BATCH: usize = 8;
 /// Residuals beyond so many standard deviations count as that many.
 const WINSOR: f64 = 4.0;
 
@@ -162,21 +160,13 @@ impl Gram {
                         block.position[number] = DVector::zeros(columns + 1);
                     }
                     let frames = data.takes[take].frames;
-                    let indices: Vec<usize> = (set * frames..(set + 1) * frames).collect();
-                    for batch in indices.chunks(BATCH) {
-                        let mut rows = Rows::default();
-                        for &index in batch {
-                            let frame = tangents.frame(take, index);
-                            let (roots, residual) = whiten(data, take, index, &frame.base, noise);
-                            let (roots, residual) = (&roots[..], &residual[..]);
-                            let whitened =
-                                Whitened { take, set: number, index, frame: &frame, roots, residual };
-                            visited = visit(visited, &whitened);
-                            rows.push(data, &whitened);
-                            let filled = fill(take, index, &frame);
-                            rows.columns.push((frame.columns, filled));
-                        }
-                        sums.add(number, &rows, tangents.count());
+                    for index in set * frames..(set + 1) * frames {
+                        let frame = tangents.frame(take, index);
+                        let (roots, residual) = whiten(data, take, index, &frame.base, noise);
+                        let (roots, residual) = (&roots[..], &residual[..]);
+                        let whitened = Whitened { take, set: number, index, frame: &frame, roots, residual };
+                        visited = visit(visited, &whitened);
+                        sums.add(data, &whitened, &fill(take, index, &frame));
                     }
                 }
                 (sums, visited)
@@ -185,10 +175,12 @@ impl Gram {
             .unwrap_or_else(|| (Self::empty(pixels, &columns, count), T::default()))
     }
 
-    fn add(&mut self, set: usize, rows: &Rows, shared: usize) {
-        let pixels = self.own.len();
-        for (row, (own, &position)) in rows.own.iter().zip(&rows.position).enumerate() {
-            let (pixel, vector) = (row % pixels, Vector4::from(*own));
+    /// With a frame, and what each block has there beside the columns that all share.
+    fn add(&mut self, data: &Data, whitened: &Whitened, filled: &Filled) {
+        let rows = Rows::of(data, whitened);
+        let set = whitened.set;
+        for (pixel, (own, &position)) in rows.own.iter().zip(&rows.position).enumerate() {
+            let vector = Vector4::from(*own);
             self.own[pixel] += vector * vector.transpose();
             if position != 0.0 {
                 let sums = &mut self.position_own[set][OWN * pixel..];
@@ -198,8 +190,12 @@ impl Gram {
         }
         self.chi2 += rows.residual.iter().map(|residual| residual * residual).sum::<f64>();
         self.samples += rows.roots.iter().filter(|root| **root > 0.0).count();
-        for (number, block) in self.blocks.iter_mut().enumerate() {
-            block.add(set, rows, &rows.active(number, shared));
+        let shared = &whitened.frame.columns;
+        for (block, filled) in self.blocks.iter_mut().zip(filled) {
+            let common = shared.iter().enumerate().map(|(column, values)| (column, &values[..]));
+            let own = filled.iter().map(|(column, values)| (shared.len() + column, &values[..]));
+            let active: Vec<_> = common.chain(own).filter(|(_, values)| !values.is_empty()).collect();
+            block.add(set, &rows, &active);
         }
     }
 

@@ -4,37 +4,44 @@ use super::data::Data;
 use super::fit::BACKGROUND_M;
 use super::gram::Noise;
 use super::lines::{Series, SetSeen};
+use crate::physics::cos_sin;
 use crate::units::phase_rad;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Matrix4, Vector4};
+use rayon::prelude::*;
 
 /// A pixel sees what the mask does not say where chi squared is less by so much, and by this share.
 const MUCH_BETTER: (f64, f64) = (100.0, 0.02);
+
+/// Pixels that are looked at one after the other, frame by frame.
+const TOGETHER: usize = 32;
 
 /// `data` with the mask that its pixels show, and how many differ from the one that was recorded; nothing where none does.
 ///
 /// Each pixel is fitted once as if it saw the moving target, and once as if it saw a background that stands still.
 pub fn with_mask(data: &Data, noise: Noise) -> Option<(Data, usize)> {
     let count = data.pixels();
-    let mut normal = vec![[Normal::new(), Normal::new()]; count];
+    let mut normal = vec![[Normal::default(); 2]; count];
     let obliquity = data.obliquities();
-    for take in &data.takes {
-        for (index, moment) in take.moments.iter().enumerate().filter(|(_, moment)| moment.lit) {
-            let position_m = moment.commanded_m();
-            let angle = moment.step_rad + moment.offset_rad;
-            let signals = &take.signal_dn[index * count..(index + 1) * count];
-            for (pixel, &signal) in signals.iter().enumerate().filter(|(_, signal)| signal.is_finite()) {
-                let signal = f64::from(signal);
-                let weight = noise.weight(signal);
-                for (sums, range_m) in
-                    normal[pixel].iter_mut().zip([position_m * obliquity[pixel], BACKGROUND_M])
-                {
-                    let light = (range_m * range_m).recip();
-                    let (sine, cosine) = (angle - phase_rad(range_m, moment.frequency_hz)).sin_cos();
-                    sums.add([light * cosine, light * sine, light, 1.0], signal, weight);
+    normal.par_chunks_mut(TOGETHER).enumerate().for_each(|(chunk, normal)| {
+        let first = chunk * TOGETHER;
+        for take in &data.takes {
+            for (index, moment) in take.moments.iter().enumerate().filter(|(_, moment)| moment.lit) {
+                let position_m = moment.commanded_m();
+                let angle = moment.step_rad + moment.offset_rad;
+                let signals = &take.signal_dn[index * count + first..][..normal.len()];
+                for (pixel, &signal) in signals.iter().enumerate().filter(|(_, signal)| signal.is_finite()) {
+                    let signal = f64::from(signal);
+                    let weight = noise.weight(signal);
+                    let ranges_m = [position_m * obliquity[first + pixel], BACKGROUND_M];
+                    for (sums, range_m) in normal[pixel].iter_mut().zip(ranges_m) {
+                        let light = (range_m * range_m).recip();
+                        let (cosine, sine) = cos_sin(angle - phase_rad(range_m, moment.frequency_hz));
+                        sums.add([light * cosine, light * sine, light, 1.0], signal, weight);
+                    }
                 }
             }
         }
-    }
+    });
     let is_other = |(&is_target, [target, background]): (&bool, &[Normal; 2])| {
         let (target, background) = (target.chi2(), background.chi2());
         let (by_mask, other) = if is_target { (target, background) } else { (background, target) };
@@ -48,25 +55,19 @@ pub fn with_mask(data: &Data, noise: Noise) -> Option<(Data, usize)> {
 }
 
 /// Normal equations of four numbers.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Normal {
-    matrix: DMatrix<f64>,
-    vector: DVector<f64>,
+    matrix: Matrix4<f64>,
+    vector: Vector4<f64>,
     square: f64,
 }
 
 impl Normal {
-    fn new() -> Self {
-        Self { matrix: DMatrix::zeros(4, 4), vector: DVector::zeros(4), square: 0.0 }
-    }
-
     fn add(&mut self, own: [f64; 4], signal: f64, weight: f64) {
-        for (row, a) in own.iter().enumerate() {
-            for (column, b) in own.iter().enumerate() {
-                self.matrix[(row, column)] += weight * a * b;
-            }
-            self.vector[row] += weight * a * signal;
-        }
+        let own = Vector4::from(own);
+        let weighted = weight * own;
+        self.matrix += weighted * own.transpose();
+        self.vector += weighted * signal;
         self.square += weight * signal * signal;
     }
 
@@ -76,7 +77,7 @@ impl Normal {
         if scale <= 0.0 {
             return None;
         }
-        let solution = self.matrix.clone().svd(true, true).solve(&self.vector, 1e-9 * scale).ok()?;
+        let solution = self.matrix.svd(true, true).solve(&self.vector, 1e-9 * scale).ok()?;
         Some(self.square - solution.dot(&self.vector))
     }
 }
