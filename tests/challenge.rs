@@ -76,7 +76,7 @@ fn difference_dn(world: &World, told: &World, known: Known, flaws: &[&Flaw], eff
         phase_rad: pixels.iter().map(|pixel| pixel.delay_rad - world.waveform.crest_rad()).collect(),
         constant_1m_dn: amplitude_1m_dn.iter().map(|amplitude| amplitude * world.waveform.mean()).collect(),
         amplitude_1m_dn,
-        ambient_dn: light(|pixel| pixel.ambient_e),
+        ambient_dn: light(|pixel| pixel.ambient_e).into(),
         full_scale_dn: sensor(&described).full_scale_dn(),
         pedestal_dn: described.pedestal_dn,
         edge_counts: Pixels::edge_counts_of(&edges),
@@ -92,7 +92,7 @@ fn difference_dn(world: &World, told: &World, known: Known, flaws: &[&Flaw], eff
         let course = Course::of(&recording).unwrap();
         for index in 0..course.count() {
             let expected = simulation.signal(&course, index);
-            for (code, expected) in frames.next().unwrap().iter().zip(expected) {
+            for (code, expected) in frames.next().unwrap().iter().zip(&expected) {
                 largest = largest.max((code - world.sensor.pedestal_dn - expected).abs());
             }
         }

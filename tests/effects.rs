@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vuris::bench::{practice_camera, sensor};
 use vuris::frames::Geometry;
 use vuris::physics::{
-    Act, Active, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Formula, Included, Memory,
-    Moment, Parameter, Place, Stage, Target,
+    Act, Active, Before, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Formula, Included,
+    Memory, Moment, Parameter, PerPixel, Place, Stage, Target,
 };
 
 const SMALL: Geometry = Geometry { width: 8, height: 6 };
@@ -50,18 +50,20 @@ fn moments() -> Vec<Moment> {
 
 fn memory(chain: &Chain, deviate: f64) -> Memory {
     let pixels = chain.pixels.count();
+    let before_dn: PerPixel = Draws::of(1, 1).normal(pixels).iter().map(|d| 300.0 + 50.0 * d).collect();
     Memory {
         noisy: false,
-        before_dn: Some(Arc::new(Draws::of(1, 1).normal(pixels).iter().map(|d| 300.0 + 50.0 * d).collect())),
+        before: Some(Before { evenly_dn: before_dn.clone(), again_dn: before_dn }),
         deviates: vec![deviate; chain.effects().len()],
         pixel_deviates: Draws::of(2, 1).normal(pixels).iter().map(|d| deviate * d).collect(),
+        waveform: None,
     }
 }
 
 fn signal(effect: &'static Effect, values: &[f64], moment: Moment, deviate: f64) -> Vec<f64> {
     let chain = chain_of(vec![Active { effect, values: values.to_vec() }]);
     let memory = memory(&chain, deviate);
-    chain.expose(moment, memory).signal_dn
+    chain.expose(moment, memory).signal_dn.to_vec()
 }
 
 fn bits(signal: &[f64]) -> Vec<u64> {
@@ -137,7 +139,7 @@ fn deterministic(effect: &'static Effect) -> Vec<String> {
         }
         draws |= once != bits(&signal(effect, &values, moment, -1.1));
         let chain = chain_of(vec![Active { effect, values: values.clone() }]);
-        let alone = Memory { before_dn: None, ..memory(&chain, 0.7) };
+        let alone = Memory { before: None, ..memory(&chain, 0.7) };
         looks_back |= once != bits(&chain.expose(moment, alone).signal_dn);
     }
     if draws != (effect.chance != Chance::None) || looks_back != effect.looks_back {
@@ -242,7 +244,7 @@ fn broken_effects_are_caught() {
         // Draws, and looks back, without saying so.
         ("deterministic", |values, exposure| add(exposure, values[0] * exposure.deviate)),
         ("deterministic", |values, exposure| {
-            let before = exposure.before_dn.as_ref().map_or(0.0, |before| before[0]);
+            let before = exposure.before.as_ref().map_or(0.0, |before| before.evenly_dn[0]);
             add(exposure, values[0] * (1.0 + before));
         }),
         ("well described", |_, _| ()),
@@ -275,7 +277,7 @@ fn formulas_act_after_the_registrys_effects() {
     let signal = |effects: &[&'static Effect]| {
         let active = effects.iter().map(|effect| Active { effect, values: effect.example() });
         let chain = chain_of(active.collect());
-        chain.expose(moments()[1], Memory::default()).signal_dn
+        chain.expose(moments()[1], Memory::default()).signal_dn.to_vec()
     };
     let doubled: Vec<f64> = signal(&[crosstalk]).into_iter().map(|signal| signal + signal).collect();
     assert_eq!(signal(&[crosstalk, twice]), doubled);

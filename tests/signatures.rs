@@ -31,7 +31,7 @@ fn row(amplitude_dn: &[f64]) -> Pixels {
         phase_rad: vec![0.0; count],
         amplitude_1m_dn: amplitude_dn.to_vec(),
         constant_1m_dn: amplitude_dn.iter().map(|a| a * ACTIVE / A).collect(),
-        ambient_dn: vec![AMBIENT; count],
+        ambient_dn: vec![AMBIENT; count].into(),
         full_scale_dn: FULL_SCALE,
         pedestal_dn: 64.0,
         edges: Vec::new(),
@@ -59,7 +59,7 @@ fn still_frame(amplitude_dn: &[f64], effects: Vec<Active>, frame: usize) -> Vec<
         frequency_hz: 30e6,
         lit: true,
     };
-    chain.expose(moment, Memory::default()).signal_dn
+    chain.expose(moment, Memory::default()).signal_dn.to_vec()
 }
 
 /// One experiment: the phase goes over a turn.
@@ -379,7 +379,14 @@ fn fixed_point(make: Make, findings: &mut Findings) {
 
 fn image_lag(make: Make, findings: &mut Findings) {
     let effect = || make("image_lag", &[("share", 0.02)]);
+    let again = || make("image_lag", &[("share", 0.02), ("last_step_before_first", 1.0)]);
     let four = Experiment::four().cycles(effect());
+    // Three steps of a quarter turn forward are one back.
+    findings.about("the last step of four", Experiment::four().cycles(again()).mean(), four.mean(), 1e-9);
+    // Of five of a third of a turn it is one forward: of 4.5 A the first frame's 2 l A sin δ sin φ turn the phase by its part sin φ.
+    let wdft = |effect| Experiment::of("wdft").cycles(effect);
+    findings.below("evenly, five frames know no cycle", wdft(effect()).size(2), 1e-9);
+    findings.about("again, they know two", wdft(again()).size(2), 0.02 * 3f64.sqrt() / 9.0 / 0.97, 1e-3);
     // l sin δ / (1 − l + l cos δ)
     findings.about("+ l sin delta", four.mean(), 0.02 / 0.98, 0.01);
     findings.below("no dependence on phase", four.rest(&[]), 1e-9);

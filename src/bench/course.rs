@@ -99,15 +99,6 @@ impl Course {
         }
     }
 
-    /// The frame before frame number `index`: before a set's first one, the one that a camera which runs on evenly takes then.
-    pub fn before(&self, index: usize) -> Moment {
-        let moment = self.moment(index);
-        match moment.frame {
-            0 => moment.preceding((self.frames() > 1).then(|| self.moment(index + 1))),
-            _ => self.moment(index - 1),
-        }
-    }
-
     /// Every frame, in the order `[set, frame]`.
     pub fn moments(&self) -> Vec<Moment> {
         (0..self.count()).map(|index| self.moment(index)).collect()
@@ -156,10 +147,15 @@ mod tests {
         let moments = moments(&recording()).unwrap();
         let places: Vec<_> = moments.iter().map(|m| (m.set, m.frame)).collect();
         assert_eq!(places, [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)]);
-        let before = Course::of(&recording()).unwrap().before(4);
-        // The camera runs on evenly, where the target is: a step of 1.5 rad and a period before the set's first frame.
-        assert_eq!((before.set, before.step_rad, before.position_m), (2, -1.5, 1.8));
+        // A period before the set's first frame, where the target is: a step of 1.5 rad before it, or the set's last one.
+        let before = Moment::before(4, |index| moments[index]);
+        assert_eq!(
+            before.map(|before| (before.set, before.step_rad, before.position_m)),
+            [(2, -1.5, 1.8), (2, 1.5, 1.8)]
+        );
+        let before = before[0];
         assert!((before.time_s - 1.175).abs() < 1e-12 && (before.in_set_s + 0.025).abs() < 1e-12);
+        assert_eq!(Moment::before(5, |index| moments[index]), [moments[4]; 2]);
         let last = moments[5];
         assert_eq!((last.position_m, last.velocity_m_s, last.offset_rad), (1.8, -0.5, 0.25));
         assert_eq!((last.step_rad, last.frames, last.lit, last.frequency_hz), (1.5, 2, true, 30e6));

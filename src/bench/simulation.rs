@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use crate::frames::RawSets;
-use crate::physics::{Chain, Draws, EFFECTS, Exposure, Memory, PerPixel, Sensor};
+use crate::physics::{Before, Chain, Draws, EFFECTS, Exposure, Memory, Moment, PerPixel, Sensor};
 use crate::problem::{Problem, Result};
 use rayon::prelude::*;
 
@@ -41,14 +41,9 @@ impl Simulation<'_> {
         self.chain.effects().iter().map(|active| deviate(active.effect.name)).collect()
     }
 
-    /// Frame number `index` of `course`, and the noise of its pixels; `before_dn` is what light brought to the frame before, where that
+    /// Frame number `index` of `course`, and the noise of its pixels; `before` is what light brought to the frame before, where that
     /// is known: it is simulated again where not, so that frames can be made in any order.
-    fn expose(
-        &self,
-        course: &Course,
-        index: usize,
-        before_dn: Option<PerPixel>,
-    ) -> (Exposure, Vec<f64>) {
+    fn expose(&self, course: &Course, index: usize, before: Option<PerPixel>) -> (Exposure, Vec<f64>) {
         let pixels = self.chain.pixels.count();
         let moment = course.moment(index);
         let mut draws = self.draws(index);
@@ -56,14 +51,15 @@ impl Simulation<'_> {
         let for_pixels = self.chain.draws_for_pixels();
         let noise = if self.noise || for_pixels { draws.rest.normal(pixels) } else { Vec::new() };
         let pixel_deviates = if for_pixels { draws.rest.normal(pixels) } else { Vec::new() };
-        let before_dn = self.chain.looks_back().then(|| {
-            before_dn.unwrap_or_else(|| {
+        let before = self.chain.looks_back().then(|| match before {
+            Some(before_dn) => Before { evenly_dn: before_dn.clone(), again_dn: before_dn },
+            None => {
                 let deviates =
                     if moment.frame > 0 { self.deviates(&self.draws(index - 1)) } else { Vec::new() };
-                self.chain.arrive(course.before(index), Memory { deviates, ..Memory::default() })
-            })
+                self.chain.remember(Moment::before(index, |index| course.moment(index)), &deviates)
+            }
         });
-        let memory = Memory { before_dn, deviates, pixel_deviates, noisy: self.noise, ..Memory::default() };
+        let memory = Memory { before, deviates, pixel_deviates, noisy: self.noise, ..Memory::default() };
         (self.chain.expose(moment, memory), noise)
     }
 
@@ -74,14 +70,14 @@ impl Simulation<'_> {
 
     /// The codes of set number `set`, `[frame, pixel]`.
     fn set(&self, course: &Course, set: usize, codes: &mut [u32]) {
-        let mut before_dn = None;
+        let mut before = None;
         for (frame, codes) in codes.chunks_mut(self.chain.pixels.count()).enumerate() {
-            let (exposure, noise) = self.expose(course, set * course.frames() + frame, before_dn);
+            let (exposure, noise) = self.expose(course, set * course.frames() + frame, before);
             self.sensor.read_out(&exposure.signal_dn, self.noise.then_some(&*noise), codes);
             if self.noise {
                 self.chain.cut_codes(codes);
             }
-            before_dn = Some(exposure.arrived_dn);
+            before = Some(exposure.arrived_dn);
         }
     }
 }

@@ -38,7 +38,12 @@ impl<'a> Rows<'a> {
             [frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]].map(|own| root * own)
         };
         let position = roots.iter().zip(&frame.position).map(|(root, position)| root * position);
-        Self { own: roots.iter().enumerate().map(own).collect(), position: position.collect(), roots, residual }
+        Self {
+            own: roots.iter().enumerate().map(own).collect(),
+            position: position.collect(),
+            roots,
+            residual,
+        }
     }
 }
 

@@ -243,7 +243,10 @@ mod tests {
         for variance in [1e-9, 0.3, 1e4] {
             let one_by_one: f64 = clusters.iter().map(|&(s, i)| of_variance(variance, s, i)).sum();
             let together = of_shared_variance(variance, &clusters);
-            assert!((together - one_by_one).abs() < 1e-12 * one_by_one.abs().max(1.0), "{together}, {one_by_one}");
+            assert!(
+                (together - one_by_one).abs() < 1e-12 * one_by_one.abs().max(1.0),
+                "{together}, {one_by_one}"
+            );
         }
     }
 }

@@ -139,7 +139,8 @@ impl<'a> Tangents<'a> {
     /// The base's signal alone, DN.
     pub fn base(&self, take: usize, index: usize) -> PerPixel {
         let moments = &self.data.takes[take].moments;
-        expose(&self.chains[take].base, moments[index], before(moments, index), None).signal_dn
+        expose(&self.chains[take].base, moments[index], Moment::before(index, |index| moments[index]), None)
+            .signal_dn
     }
 
     /// Frame number `index` of recording `take`.
@@ -147,7 +148,7 @@ impl<'a> Tangents<'a> {
         let moments = &self.data.takes[take].moments;
         let moment = moments[index];
         let chains = &self.chains[take];
-        let before = before(moments, index);
+        let before = Moment::before(index, |index| moments[index]);
         let Exposure { signal_dn: base, waveform, .. } = expose(&chains.base, moment, before, None);
         // Most of what is tried leaves the phases as they are.
         let expose = |chain, moment| expose(chain, moment, before, waveform.clone()).signal_dn;
@@ -160,8 +161,8 @@ impl<'a> Tangents<'a> {
         let own = chains.own.each_ref().map(|(chain, step)| difference(expose(chain, moment), *step));
         let stations = if chains.columns.iter().any(|change| matches!(change, Some(Change::More(..)))) {
             let looks_back = chains.looks_back || chains.base.looks_back();
-            let before_dn = looks_back.then(|| chains.base.arrive(before, Memory::default()));
-            chains.base.stations(moment, Memory { before_dn, waveform: waveform.clone(), ..Memory::default() })
+            let before = looks_back.then(|| chains.base.remember(before, &[]));
+            chains.base.stations(moment, Memory { before, waveform: waveform.clone(), ..Memory::default() })
         } else {
             Vec::new()
         };
@@ -189,17 +190,8 @@ impl<'a> Tangents<'a> {
     }
 }
 
-/// The frame of `chain` at `moment`, after the frame `before`, with the `waveform` where it is at hand.
-fn expose(chain: &Chain, moment: Moment, before: Moment, waveform: Option<Arc<Waveform>>) -> Exposure {
-    let before_dn = chain.looks_back().then(|| chain.arrive(before, Memory::default()));
-    chain.expose(moment, Memory { before_dn, waveform, ..Memory::default() })
-}
-
-/// The frame before: of the same set, or, of a set's first, what a camera that runs on evenly had taken then.
-fn before(moments: &[Moment], index: usize) -> Moment {
-    let moment = moments[index];
-    match moment.frame {
-        0 => moment.preceding(moments.get(index + 1).copied().filter(|_| moment.frames > 1)),
-        _ => moments[index - 1],
-    }
+/// The frame of `chain` at `moment`, after one of the frames `before`, with the `waveform` where it is at hand.
+fn expose(chain: &Chain, moment: Moment, before: [Moment; 2], waveform: Option<Arc<Waveform>>) -> Exposure {
+    let before = chain.looks_back().then(|| chain.remember(before, &[]));
+    chain.expose(moment, Memory { before, waveform, ..Memory::default() })
 }

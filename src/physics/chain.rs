@@ -3,7 +3,7 @@
 use super::correlation::{Correlation, Waveform};
 use super::effect::{Active, Chance, Place};
 use super::effects;
-use super::exposure::{Exposure, Included, Moment};
+use super::exposure::{Before, Exposure, Included, Moment};
 use super::per_pixel::PerPixel;
 use super::pixels::Pixels;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub struct Chain {
 #[derive(Debug, Clone, Default)]
 pub struct Memory {
     /// What light brought to the pixels in the frame before, DN.
-    pub before_dn: Option<PerPixel>,
+    pub before: Option<Before>,
     /// The waveform at phases that the frame's may be, where it is at hand.
     pub waveform: Option<Arc<Waveform>>,
     /// Draws from the standard normal distribution for this frame, one for each of [`Chain::effects`], in its order; where there are none, 0.
@@ -81,9 +81,9 @@ impl Chain {
     }
 
     fn begin(&self, moment: Moment, memory: Memory) -> Exposure {
-        let Memory { before_dn, waveform, deviates, pixel_deviates, noisy } = memory;
+        let Memory { before, waveform, deviates, pixel_deviates, noisy } = memory;
         let exposure = Exposure::new(moment, &self.pixels, self.included, &self.correlation);
-        Exposure { before_dn, waveform, deviates, pixel_deviates, noisy, ..exposure }
+        Exposure { before, waveform, deviates, pixel_deviates, noisy, ..exposure }
     }
 
     /// Cuts low bits off noisy codes, where the camera's arithmetic does.
@@ -102,6 +102,15 @@ impl Chain {
     /// Whether an effect draws for every pixel.
     pub fn draws_for_pixels(&self) -> bool {
         self.effects.iter().any(|active| active.effect.chance == Chance::Pixel)
+    }
+
+    /// What light brought in the frame before, which is one of [`Moment::before`], with its `deviates`.
+    pub fn remember(&self, [evenly, again]: [Moment; 2], deviates: &[f64]) -> Before {
+        let arrive =
+            |moment| self.arrive(moment, Memory { deviates: deviates.to_vec(), ..Memory::default() });
+        let evenly_dn = arrive(evenly);
+        let again_dn = if again == evenly { evenly_dn.clone() } else { arrive(again) };
+        Before { evenly_dn, again_dn }
     }
 
     /// What light brings to the pixels at `moment`, before charge goes anywhere, DN.

@@ -51,7 +51,11 @@ impl Correlation {
     /// Adds a_m cos(m · angle + p_m) for the harmonic `number` (>= 1), by its parts: `cosine` · cos(m · angle) + `sine` · sin(m · angle).
     pub fn add_harmonic(&mut self, number: u32, cosine: f64, sine: f64) {
         let amplitude = libm::hypot(cosine, sine);
-        Arc::make_mut(&mut self.harmonics).push(Harmonic { number, amplitude, phase_rad: libm::atan2(-sine, cosine) });
+        Arc::make_mut(&mut self.harmonics).push(Harmonic {
+            number,
+            amplitude,
+            phase_rad: libm::atan2(-sine, cosine),
+        });
     }
 
     /// The harmonics, the fundamental among them.

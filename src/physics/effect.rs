@@ -165,7 +165,7 @@ pub struct Effect {
     pub place: Place,
     /// How it draws from chance.
     pub chance: Chance,
-    /// Whether it needs [`Exposure::before_dn`], the light of the frame before.
+    /// Whether it needs [`Exposure::before`], the light of the frame before.
     pub looks_back: bool,
     /// The forward model.
     pub act: Act,

@@ -45,12 +45,20 @@ impl Moment {
         self.position_m + self.velocity_m_s * self.in_set_s
     }
 
-    /// The frame before this one, the first of its set, by a camera that runs on evenly: `second` is the set's second frame.
-    #[must_use]
-    pub fn preceding(self, second: Option<Self>) -> Self {
-        let step_rad = second.map_or(self.step_rad, |second| 2.0 * self.step_rad - second.step_rad);
-        let period_s = self.frame_period_s;
-        Self { step_rad, in_set_s: self.in_set_s - period_s, time_s: self.time_s - period_s, ..self }
+    /// The frame before frame number `index` of those that `moment` gives. Before a set's first one it is the one that a camera
+    /// takes then which runs on evenly, and that of a camera which takes the same steps set after set.
+    pub fn before(index: usize, moment: impl Fn(usize) -> Self) -> [Self; 2] {
+        let first = moment(index);
+        if first.frame > 0 {
+            return [moment(index - 1); 2];
+        }
+        let (second, last) = (index + usize::from(first.frames > 1), index + first.frames.max(1) - 1);
+        [2.0 * first.step_rad - moment(second).step_rad, moment(last).step_rad].map(|step_rad| Self {
+            step_rad,
+            in_set_s: first.in_set_s - first.frame_period_s,
+            time_s: first.time_s - first.frame_period_s,
+            ..first
+        })
     }
 }
 
@@ -61,6 +69,15 @@ pub struct Included {
     pub axial_motion: bool,
     /// The light falls off during a set as the target moves.
     pub inverse_square_falloff: bool,
+}
+
+/// What light brought to the pixels in the frame before, DN.
+#[derive(Debug, Clone)]
+pub struct Before {
+    /// In a camera that runs on evenly from set to set.
+    pub evenly_dn: PerPixel,
+    /// In a camera that takes the same steps set after set.
+    pub again_dn: PerPixel,
 }
 
 /// A frame in the making. Effects change what stands here when their place comes.
@@ -103,7 +120,7 @@ pub struct Exposure {
     /// What light brought to the pixels, DN, before charge went anywhere.
     pub arrived_dn: PerPixel,
     /// The same of the frame before; nothing where there was none.
-    pub before_dn: Option<PerPixel>,
+    pub before: Option<Before>,
     /// The waveform at the pixels' phases, as it was looked up last: it is looked up again only where something has changed.
     pub waveform: Option<Arc<Waveform>>,
     /// Draws from the standard normal distribution for this frame, one for each of the chain's effects.
@@ -138,7 +155,7 @@ impl Exposure {
             correlation: correlation.clone(),
             signal_dn: PerPixel::default(),
             arrived_dn: PerPixel::default(),
-            before_dn: None,
+            before: None,
             waveform: None,
             deviates: Vec::new(),
             deviate: 0.0,
@@ -210,9 +227,10 @@ impl Exposure {
 
     /// Charge from light: amplitude times waveform, and what is constant.
     pub fn correlate(&mut self) {
-        let known = self.waveform.take().filter(|known| {
-            known.is_of(&self.correlation, &self.phase_rad, self.angle_rad)
-        });
+        let known = self
+            .waveform
+            .take()
+            .filter(|known| known.is_of(&self.correlation, &self.phase_rad, self.angle_rad));
         let waveform = known
             .unwrap_or_else(|| Arc::new(Waveform::of(&self.correlation, &self.phase_rad, self.angle_rad)));
         let offsets = self.constant_dn.iter().zip(&self.ambient_dn).map(|(own, ambient)| own + ambient);

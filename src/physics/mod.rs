@@ -30,7 +30,7 @@ pub use correlation::{Correlation, FREQUENCY_HZ, Harmonic, Waveform};
 pub use draws::Draws;
 pub use effect::{Act, Active, Chance, Effect, Parameter, Place};
 pub use effects::EFFECTS;
-pub use exposure::{Exposure, Included, Moment};
+pub use exposure::{Before, Exposure, Included, Moment};
 pub use formula::{Formula, Target};
 pub use per_pixel::PerPixel;
 pub use pixels::Pixels;
