@@ -59,8 +59,10 @@ fn clean_campaigns_are_clean_and_every_field_is_there() {
 }
 
 /// Effects with values, and the parameter that must come back.
-const SINGLE: [(&str, &str, &str, f64); 6] = [
+const SINGLE: [(&str, &str, &str, f64); 8] = [
     ("image_lag", "image_lag:share=0.02", "share", 0.02),
+    // Of five frames another one comes before the first.
+    ("image_lag", "image_lag:share=0.02,last_step_before_first=1", "last_step_before_first", 1.0),
     ("electrical_crosstalk", "electrical_crosstalk:cosine_dn=1.5,sine_dn=-1", "sine_dn", -1.0),
     ("phase_step_scale", "phase_step_scale:relative=0.004", "relative", 0.004),
     (
@@ -71,17 +73,24 @@ const SINGLE: [(&str, &str, &str, f64); 6] = [
     ),
     ("ambient_flicker", "ambient_flicker:cosine=0.05,sine=0.02,frequency_hz=103.1", "frequency_hz", 103.1),
     ("encoder_cyclic", "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.137", "period_m", 0.137),
+    // The runs' velocities are off, and differ from set to set: that is no jitter of the frames' times.
+    (
+        "encoder_cyclic",
+        "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.337,controls_carriage=1",
+        "controls_carriage",
+        1.0,
+    ),
 ];
 
 #[test]
 fn single_effects_are_named_with_their_strength_and_held_out_sets_agree_better() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, effect, key, expected) in SINGLE {
-        let verdict = verdict(&campaign(folder.path(), name, &[effect], "5"));
+    for (number, (name, effect, key, expected)) in SINGLE.into_iter().enumerate() {
+        let verdict = verdict(&campaign(folder.path(), &number.to_string(), &[effect], "5"));
         assert_eq!(names(&verdict), [name], "{verdict:#}");
         assert_eq!(verdict["verdict"], "explained", "{name}");
         let (value, sigma) = parameter(&verdict, key);
-        assert!((value - expected).abs() < 4.0 * sigma, "{name}: {value} +- {sigma}, not {expected}");
+        assert!((value - expected).abs() <= 4.0 * sigma, "{name}: {value} +- {sigma}, not {expected}");
         let held = &verdict["held_out"];
         assert!(held["z"].as_f64().unwrap() > 2.0, "{name}: {held}");
         let [before, after] =
@@ -344,7 +353,7 @@ fn recordings_without_camera_and_positions_are_diagnosed() {
     for (name, expected) in [("cosine_3", 0.024129 * 0.2421f64.cos()), ("sine_3", 0.024129 * 0.2421f64.sin())]
     {
         let (value, sigma) = parameter(&verdict, name);
-        assert!((value - expected).abs() < 4.0 * sigma, "{name}: {value} +- {sigma}, not {expected}");
+        assert!((value - expected).abs() <= 4.0 * sigma, "{name}: {value} +- {sigma}, not {expected}");
     }
     // The electrons a code and the read noise that the recordings were made with: 12, and 36.
     let noise = &verdict["provenance"]["noise"];

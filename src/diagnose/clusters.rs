@@ -28,12 +28,12 @@ pub const LEVELS: [Level; 6] =
     [Level::Set, Level::Frame, Level::Row, Level::Column, Level::Neighbours, Level::Pixel];
 
 /// In which way samples may be off together: by so much light (DN), in proportion to the signal, in phase (rad), as if the target
-/// were where it is at another time (s), or, of a set, at another place (m).
-pub const MODES: [&str; 4] = ["offset", "gain", "phase", "position"];
+/// were where it is at another time (s), or, of a set, at another place (m), or, of a set too, with another velocity (m/s).
+pub const MODES: [&str; 5] = ["offset", "gain", "phase", "position", "velocity"];
 
 const STEPS: usize = 14;
 /// Least and greatest standard deviation of each mode.
-const ENDS: [(f64, f64); 4] = [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03)];
+const ENDS: [(f64, f64); 5] = [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03), (1e-4, 0.3)];
 
 fn variance(mode: usize, step: f64) -> f64 {
     let (low, high) = ENDS[mode];
@@ -77,17 +77,21 @@ impl Clusters {
         let geometry = data.geometry();
         let (width, blocks) = (geometry.width, geometry.width.div_ceil(2));
         let (frame, take) = (whitened.frame, &data.takes[whitened.take]);
-        let velocity_m_s = take.moments[whitened.index].velocity_m_s;
+        let moment = take.moments[whitened.index];
+        let velocity_m_s = moment.velocity_m_s;
+        // From the middle of the set on, so that another velocity leaves its place where it is.
+        let from_middle_s = moment.in_set_s - 0.5 * (take.frames - 1) as f64 * moment.frame_period_s;
         let sizes = [1, geometry.height, width, blocks * geometry.height.div_ceil(2), geometry.pixels()];
         for mode in 0..MODES.len() {
             // A set is at another place as a whole; a frame is only if it is taken at another time of a movement.
-            if mode == 3 {
+            if mode >= 3 {
+                let per = if mode == 3 { 1.0 } else { from_middle_s };
                 for pixel in 0..whitened.roots.len() {
-                    let value = whitened.roots[pixel] * frame.position[pixel];
+                    let value = whitened.roots[pixel] * frame.position[pixel] * per;
                     self.set[mode].0 += value * whitened.residual[pixel];
                     self.set[mode].1 += value * value;
                 }
-                if velocity_m_s == 0.0 {
+                if mode > 3 || velocity_m_s == 0.0 {
                     continue;
                 }
             }

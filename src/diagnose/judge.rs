@@ -286,6 +286,7 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
 
 fn coordinate(cluster: &Cluster) -> &'static str {
     match cluster.level {
+        Level::Set if MODES[cluster.mode] == "velocity" => "velocity_m_s",
         Level::Set if cluster.mode >= 2 => "encoder",
         Level::Set => "set",
         Level::Frame => "frame",

@@ -1,5 +1,6 @@
 //! Diagnosis: where recordings and simulation disagree, and which physics was left out.
 
+mod alias;
 mod block;
 mod camera;
 mod clusters;

@@ -2,7 +2,7 @@
 
 use super::data::Data;
 use super::lines::{FLICKER_HZ, Series};
-use crate::physics::{Active, Chance, EFFECTS, Effect, effects};
+use crate::physics::{Active, Chance, EFFECTS, Effect, Parameter, effects};
 
 /// An effect at certain values, in some of the recordings.
 #[derive(Debug, Clone)]
@@ -127,7 +127,9 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));
             let shapes = line.map(|(shape, _)| vec![shape]);
             let variants = variants(effect, data, shapes.as_deref());
-            Candidate { effect, looked: line.map_or(variants.len() as f64, |(_, looked)| looked), variants }
+            // A line is one of many frequencies that were looked at.
+            let looked = variants.len() as f64 * line.map_or(1.0, |(_, looked)| looked);
+            Candidate { effect, looked, variants }
         })
         .collect()
 }
@@ -143,8 +145,12 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         };
         return values.iter().map(|value| Variant { pieces: vec![piece(value)] }).collect();
     }
-    let shape = effect.parameters.iter().position(|parameter| parameter.is_shape());
-    let shapes: &[f64] = shape.map_or(&[0.0], |shape| effect.parameters[shape].shapes);
+    let find = |is: &dyn Fn(&Parameter) -> bool| effect.parameters.iter().position(is);
+    let shape = find(&|parameter| parameter.is_shape() && !parameter.is_choice);
+    let choice = find(&|parameter| parameter.is_choice);
+    let values_of =
+        |number: Option<usize>| number.map_or(&[0.0][..], |number| effect.parameters[number].shapes);
+    let (shapes, choices) = (found.unwrap_or(values_of(shape)), values_of(choice));
     let groupings = GROUPINGS.iter().find(|(name, _)| *name == effect.name);
     let groupings = groupings.map_or(&[Grouping::All][..], |(_, groupings)| groupings);
     let strengths = |instead: bool| -> Vec<usize> {
@@ -156,15 +162,16 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let full_scale_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
     let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));
-    for &value in found.unwrap_or(shapes).iter().filter(is_within) {
+    let ways =
+        choices.iter().flat_map(|&chosen| shapes.iter().filter(is_within).map(move |&value| (chosen, value)));
+    for (chosen, value) in ways {
         let mut values = effect.off();
-        if let Some(shape) = shape {
-            values[shape] = value;
-        }
-        // A phase shifter that has settings of its own has the same in all recordings.
-        let is_shared = shape.is_some_and(|shape| effect.parameters[shape].is_choice) && value > 0.0;
+        shape.into_iter().for_each(|shape| values[shape] = value);
+        choice.into_iter().for_each(|choice| values[choice] = chosen);
+        // A phase shifter that has so many settings of its own has the same in all recordings.
+        let is_shared = chosen > 1.0;
         let groupings = if is_shared { &[Grouping::All][..] } else { groupings };
-        let strengths = if is_shared { &strengths[..value as usize] } else { &strengths[..] };
+        let strengths = if is_shared { &strengths[..chosen as usize] } else { &strengths[..] };
         for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
             let of = |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data) };
             variants.extend(groupings.iter().map(of));

@@ -1,5 +1,6 @@
 //! The answer as other programs read it: `vuris-verdict/1`.
 
+use super::alias::alias_odds;
 use super::data::Data;
 use super::fit::unfitted;
 use super::gram::Noise;
@@ -62,6 +63,7 @@ pub struct EffectRow {
     pub name: &'static str,
     pub sentence: String,
     pub probability: f64,
+    pub alias_risk: f64,
     pub also_possible: Vec<String>,
     pub parameters: Vec<ParameterRow>,
     pub evidence: EvidenceRow,
@@ -302,20 +304,23 @@ fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
         }
     }
     let (chi2, degrees_of_freedom) = named.score;
-    // Rivals are within a few nats; everything else together has what the threshold leaves.
+    let rho = (chi2 - degrees_of_freedom as f64).max(0.0).sqrt();
+    // Rivals are within a few nats; everything else that is known has what the threshold leaves.
     let rivals = named.rivals.len() as f64 * (-1.5f64).exp();
-    let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp());
+    let alias = alias_odds(rho);
+    let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp() + alias);
     EffectRow {
         name: named.name,
         sentence: sentence.to_owned(),
         probability,
+        alias_risk: alias * probability,
         also_possible,
         parameters: parameters(data, judgement, named.name),
         evidence: EvidenceRow {
             delta_chi2: chi2,
             degrees_of_freedom,
             ln_bayes_factor: named.ln_bayes,
-            detectability_rho: (chi2 - degrees_of_freedom as f64).max(0.0).sqrt(),
+            detectability_rho: rho,
         },
     }
 }

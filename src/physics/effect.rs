@@ -71,7 +71,7 @@ impl Parameter {
         Self { shapes, ..Self::strength(name, unit, usual, bounds, usual) }
     }
 
-    /// A shape that is one of `shapes`, the first of them as a rule.
+    /// A shape that is one of `shapes`, the first of them as a rule; one above 1 is how many of the strengths there are.
     pub const fn choice(name: &'static str, unit: &'static str, shapes: &'static [f64]) -> Self {
         let (first, last) = (shapes[0], shapes[shapes.len() - 1]);
         Self { is_choice: true, typical: last, ..Self::shape(name, unit, first, (first, last), shapes) }

@@ -17,15 +17,20 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
     let (low, high) = interval(alarms, nulls);
     let _ = writeln!(
         text,
-        "**Clean campaigns**: {alarms} alarms in {nulls} (95 % interval {:.1} to {:.1} %).\n",
+        "**Clean campaigns**: {alarms} alarms in {nulls} (95 % interval {:.1} to {:.1} %).{}\n",
         100.0 * low,
-        100.0 * high
+        100.0 * high,
+        summary
+            .alarms
+            .iter()
+            .map(|(seed, said)| format!(" Seed {seed}: {}.", said.trim()))
+            .collect::<String>()
     );
-    let (stated, within) = summary.intervals;
+    let (stated, within, nearly) = summary.intervals;
     let (low, high) = interval(within, stated);
     let _ = writeln!(
         text,
-        "**Intervals**: of {stated} stated 95 % intervals {within} hold the truth ({:.1} %; 95 % interval {:.1} to {:.1} %).\n",
+        "**Intervals**: of {stated} stated 95 % intervals {within} hold the truth ({:.1} %; 95 % interval {:.1} to {:.1} %), of three standard deviations {nearly}.\n",
         100.0 * within as f64 / stated.max(1) as f64,
         100.0 * low,
         100.0 * high

@@ -23,10 +23,12 @@ pub struct Cell {
 pub struct Summary {
     /// Clean campaigns, and alarms among them.
     pub nulls: (usize, usize),
+    /// The alarms: seed, and what was said.
+    pub alarms: Vec<(u64, String)>,
     /// By effect and strength (in tenths of a standard deviation).
     pub cells: BTreeMap<(&'static str, u32), Cell>,
-    /// Numbers whose 95 % interval was stated, and those that lie within.
-    pub intervals: (usize, usize),
+    /// Numbers whose 95 % interval was stated, those that lie within, and those within three standard deviations.
+    pub intervals: (usize, usize, usize),
     /// What was named in place of what: `(effect, named)`, and how often.
     pub confused: BTreeMap<(&'static str, String), usize>,
 }
@@ -41,7 +43,12 @@ impl Summary {
         for (case, outcome) in outcomes {
             let Some((effect, ..)) = &case.effect else {
                 summary.nulls.0 += 1;
-                summary.nulls.1 += usize::from(outcome.verdict != "clean");
+                if outcome.verdict != "clean" {
+                    summary.nulls.1 += 1;
+                    summary
+                        .alarms
+                        .push((case.seed, format!("{} {}", outcome.verdict, outcome.named.join(" + "))));
+                }
                 continue;
             };
             let name = effect.name;
@@ -59,6 +66,7 @@ impl Summary {
             if let Some(error) = outcome.error_sigma {
                 summary.intervals.0 += 1;
                 summary.intervals.1 += usize::from(error.abs() < INTERVAL_SIGMAS);
+                summary.intervals.2 += usize::from(error.abs() < 3.0);
             }
         }
         summary
@@ -121,7 +129,8 @@ mod tests {
         let summary = Summary::of(outcomes.iter().map(|(case, outcome)| (*case, outcome)));
         assert_eq!(summary.nulls, (2, 1));
         assert_eq!(summary.at(10.0), Cell { right: 2, possible: 1, silent: 1, unexplained: 1, wrong: 2 });
-        assert_eq!(summary.intervals, (3, 2));
+        assert_eq!(summary.intervals, (3, 2, 3));
+        assert_eq!(summary.alarms, [(1, "unexplained ".to_owned())]);
         assert_eq!(summary.confused.get(&("image_lag", "saturation".to_owned())), Some(&2));
     }
 

@@ -6,6 +6,8 @@ use std::path::Path;
 
 /// Lines that a list may take.
 const MOST: usize = 4;
+/// Of names that are as sure as this nothing is said.
+const RISK: f64 = 0.02;
 
 /// What `diagnosis` says of `campaign`, in a screenful.
 pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
@@ -35,6 +37,10 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         }
         if !effect.also_possible.is_empty() {
             let _ = writeln!(text, "  cannot be told apart here from {}", effect.also_possible.join(", "));
+        }
+        if effect.alias_risk > RISK {
+            let percent = 100.0 * effect.alias_risk;
+            let _ = writeln!(text, "  weak: with {percent:.0} % it is something unknown that looks like it");
         }
     }
     let held = &answer.held_out;
