@@ -1,12 +1,12 @@
 //! `vuris diagnose`: recovery, silence, the unknown, refusals, and the practice campaigns where they are at hand.
 
 mod diagnosed;
+mod rewritten;
 
 use diagnosed::{names, verdict, vuris};
+use rewritten::{Sample, rewrite};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use vuris::frames::RawSets;
-use vuris::recording::{Recording, write_recording};
 
 /// A small campaign with `effects`.
 fn campaign(folder: &Path, name: &str, effects: &[&str], seed: &str) -> PathBuf {
@@ -159,13 +159,13 @@ fn a_camera_that_knows_what_was_found_leaves_nothing_to_find() {
 fn bad_masks_dead_pixels_and_odd_sets_raise_no_alarm() {
     let folder = tempfile::tempdir().unwrap();
     let odd = campaign(folder.path(), "odd", &[], "17");
-    rewrite(&odd, |set, _, _, code| if set % 60 == 30 { code + 150.0 } else { code });
+    rewrite(&odd, |s| if s.set % 60 == 30 { s.code + 150.0 } else { s.code });
     let found = verdict(&odd);
     assert_eq!(found["verdict"], "clean", "{found:#}");
     assert!(found["provenance"]["sets_left_out"].as_u64().unwrap() > 5);
     // A row that is dead: no light, no noise.
     let dead = campaign(folder.path(), "dead", &[], "19");
-    rewrite(&dead, |_, _, row, code| if row == 3 { 64.0 } else { code });
+    rewrite(&dead, |s| if s.row == 3 { 64.0 } else { s.code });
     assert_eq!(verdict(&dead)["verdict"], "clean");
     for entry in std::fs::read_dir(&dead).unwrap() {
         let mask = entry.unwrap().path().join("mask.npy");
@@ -178,34 +178,12 @@ fn bad_masks_dead_pixels_and_odd_sets_raise_no_alarm() {
     assert!(unmasked["provenance"]["pixels_unlike_the_mask"].as_u64().unwrap() > 3);
 }
 
-/// Rewrites every frame of the campaign's recordings by `change` (set, frame, row, code).
-fn rewrite(campaign: &Path, change: impl Fn(usize, usize, usize, f64) -> f64) {
-    for entry in std::fs::read_dir(campaign).unwrap() {
-        let folder = entry.unwrap().path();
-        if !folder.join("recording.toml").exists() {
-            continue;
-        }
-        let mut recording = Recording::open(&folder).unwrap();
-        let geometry = recording.geometry();
-        let frames = recording.raw.frames_per_set();
-        let codes = recording.raw.codes().iter().enumerate().map(|(at, &code)| {
-            let (index, pixel) = (at / geometry.pixels(), at % geometry.pixels());
-            change(index / frames, index % frames, pixel / geometry.width, f64::from(code))
-                .round()
-                .clamp(0.0, 4095.0) as u32
-        });
-        recording.raw = RawSets::new(geometry, frames, codes.collect()).unwrap();
-        std::fs::remove_dir_all(&folder).unwrap();
-        write_recording(&recording, &folder).unwrap();
-    }
-}
-
 #[test]
 fn what_no_effect_explains_is_unexplained_and_located() {
     let folder = tempfile::tempdir().unwrap();
     let banded = campaign(folder.path(), "banded", &[], "11");
     // Rows that flicker from frame to frame, with a phase that never repeats.
-    rewrite(&banded, |set, frame, row, code| {
+    rewrite(&banded, |Sample { set, frame, row, code, .. }| {
         let phase = 7.7 * (set * 5 + frame) as f64 + ((set * 31 + frame * 17) as f64).powi(2) * 0.37;
         code + 6.0 * (row as f64 * 1.9 + phase).sin()
     });
@@ -232,7 +210,7 @@ typical = 1
 fn what_is_unexplained_is_named_when_the_user_gives_its_formula() {
     let folder = tempfile::tempdir().unwrap();
     let ripple = campaign(folder.path(), "ripple", &[], "23");
-    rewrite(&ripple, |set, _, row, code| {
+    rewrite(&ripple, |Sample { set, row, code, .. }| {
         code + 3.0 * (1.9 * row as f64).sin() * (1.0 - 2.0 * (set % 2) as f64)
     });
     let before = verdict(&ripple);

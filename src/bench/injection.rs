@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn effects_are_named_with_values_or_without() {
         let lag = injection("image_lag").unwrap();
-        assert_eq!((lag.effect.name, lag.values), ("image_lag", vec![0.01]));
+        assert_eq!((lag.effect.name, lag.values), ("image_lag", vec![0.01, 0.0]));
         let crosstalk = injection("electrical_crosstalk:sine_dn=-2.5").unwrap();
         assert_eq!(crosstalk.values, [0.0, -2.5]);
         let two = injection("multipath_interference:relative_amplitude=0.2,wall_distance_m=1.5").unwrap();

@@ -5,6 +5,7 @@
 
 use super::data::Data;
 use super::gram::Whitened;
+use super::white::White;
 
 /// Which samples share an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +56,8 @@ pub struct Cluster {
     pub ln_bayes: f64,
     /// The recording that shows it most.
     pub take: usize,
+    /// Of errors of frames, rows and columns: the greatest correlation among them, in the standard deviations of what white noise makes.
+    pub correlation: f64,
 }
 
 /// Of a level and mode: clusters, their information, its square, and the scores' squares beyond what noise makes.
@@ -68,7 +71,12 @@ pub struct Clusters {
     information: Informed,
     /// Score and information of the set whose frames come just now.
     set: [(f64, f64); MODES.len()],
+    /// Offsets of frames, rows and columns.
+    white: [White; OFFSETS.len()],
 }
+
+/// Levels whose offsets are noise where they are white.
+pub const OFFSETS: [Level; 3] = [Level::Frame, Level::Row, Level::Column];
 
 impl Clusters {
     /// With the clusters of one more frame; the frames of a set come one after the other.
@@ -116,6 +124,13 @@ impl Clusters {
                 self.set[mode].0 += sums[0][0].0;
                 self.set[mode].1 += sums[0][0].1;
             }
+            if mode == 0 {
+                let is_first = whitened.index == 0;
+                for (white, sums) in self.white.iter_mut().zip(&sums) {
+                    let errors = sums.iter().map(|(score, k)| if *k > 0.0 { score / k.sqrt() } else { 0.0 });
+                    white.add(errors.collect(), moment.frame, take.frames, is_first);
+                }
+            }
             // A pixel alone has noise, whatever it is proportional to.
             let levels = if mode < 2 { 5 } else { 1 };
             for (level, sums) in sums.iter().enumerate().take(levels) {
@@ -148,6 +163,7 @@ impl Clusters {
         {
             sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += other);
         }
+        self.white = std::array::from_fn(|level| self.white[level].clone().and(&other.white[level]));
         self
     }
 
@@ -181,6 +197,10 @@ impl Clusters {
                     },
                     ln_bayes: at(best),
                     take: take.unwrap_or(0),
+                    correlation: match OFFSETS.iter().position(|offset| *offset == level) {
+                        Some(place) if mode == 0 => self.white[place].correlation(),
+                        _ => f64::INFINITY,
+                    },
                 });
             }
         }

@@ -1,27 +1,28 @@
 //! From a search and a location to a judgement: clean, explained, partly explained, unexplained.
 
-use super::clusters::{Cluster, Level, MODES};
+use super::clusters::Level;
 use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
 use super::location::{Located, Location, locate};
-use super::pass::DISBELIEF;
+use super::noise::beyond;
+use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::{Piece, tolerance};
+use super::random::{
+    self, CLUSTER_NATS, ORDERED_SHARE, RandomEffect, coordinate, deflated, errors, inflation, is_noisier,
+    random_effect, words,
+};
 use super::search::{Found, Named, search};
 use crate::physics::effects;
 
 /// Evidence (nats) from which on a coordinate counts as located.
 const LOCATED_NATS: f64 = 4.0;
-/// The same for errors that samples share at random: twenty of them are looked at.
-const CLUSTER_NATS: f64 = 6.0;
-/// A set's common position error up to this is the encoder's usual noise, m.
-const USUAL_JITTER_M: f64 = 0.5e-3;
-/// Of what random errors explain, columns of a coordinate must explain so much to be what they are.
-const ORDERED_SHARE: f64 = 0.2;
 /// What an effect's freedom costs, nats, where its evidence is taken from its fit.
 const OCCAM_NATS: f64 = 10.0;
+/// What the freedom of a few numbers costs at most, nats.
+const FREEDOM_NATS: f64 = 25.0;
 /// How often the noise is corrected.
-const NOISE_STEPS: usize = 3;
+const NOISE_STEPS: usize = 2;
 
 /// Where a mismatch lives.
 #[derive(Debug, Clone)]
@@ -76,21 +77,22 @@ pub struct Judgement {
     pub fit: Fit,
     /// The noise, corrected where the camera's description has it too small.
     pub noise: Noise,
+    /// Noise that rows, columns or frames share besides, in words.
+    pub shared_noise: Option<String>,
 }
 
 /// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut noise = stated;
     let (mut found, mut end) = searched(data, baseline, noise);
-    let mut excess: Option<Cluster> = None;
+    let mut in_proportion: f64 = 0.0;
     for _ in 0..NOISE_STEPS {
-        let Some(more) = noise_excess(data, &end) else { break };
-        match more.mode {
-            0 => noise.floor += more.sigma * more.sigma,
-            _ => noise.square += more.sigma * more.sigma,
+        if !is_noisier(data, &end) {
+            break;
         }
-        // The first says what it is; the others make it exact.
-        excess = Some(excess.map_or(more, |first| Cluster { sigma: first.sigma.hypot(more.sigma), ..first }));
+        let more = beyond(data, &found.fit, noise);
+        noise = more.noise;
+        in_proportion += more.in_proportion;
         (found, end) = searched(data, unfitted(data, noise), noise);
     }
     let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };
@@ -98,20 +100,29 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let left = self::places(data, &end);
 
     // What random errors let appear among the columns is not asserted.
-    let inflation = real(data, &end).iter().map(|c| c.inflation).fold(1.0, f64::max);
-    let stands = |named: &Named| named.ln_bayes - 0.5 * named.score.0 * (1.0 - 1.0 / inflation) > 1.0;
+    let inflation = inflation(data, &end);
+    let stands = |named: &Named| {
+        // Of two that were found together the evidence is that of both.
+        let together = found.named.iter().filter(|other| other.ln_bayes == named.ln_bayes);
+        let chi2: f64 = together.map(|named| named.score.0).sum();
+        // A fit may explain much more than the tangents from which the evidence is.
+        let chi2 = chi2.min(2.0 * (named.ln_bayes + FREEDOM_NATS));
+        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD
+    };
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
     let explained: f64 = (found.baseline.chi2 - found.fit.chi2).max(0.0);
     let dropped = named.len() < found.named.len();
 
     // A random effect takes with it what is left at random.
     let random = random_effect(data, &end).or_else(|| {
-        let excess = excess.filter(|excess| excess.mode == 1)?;
-        Some(("excess_noise", excess))
+        // Else it is the noise that was stated, and more of it.
+        let sigma = (noise.square - stated.square).max(0.0).sqrt();
+        let excess = RandomEffect { name: "excess_noise", sigma, ln_bayes: in_proportion, inflation: 1.0 };
+        (in_proportion > CLUSTER_NATS).then_some(excess)
     });
     let is_left = |place: &&Place| {
-        random.as_ref().is_none_or(|(_, cluster)| {
-            !place.is_random && deflated(cluster, place.ln_bayes, place.chi2.0) > LOCATED_NATS
+        random.is_none_or(|random| {
+            !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
         })
     };
     let rest = |place: &Place| place.chi2.0 - place.chi2.1 as f64;
@@ -131,10 +142,21 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         && baseline.columns.first().is_some_and(|best| best.ln_bayes > together);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
-    if let Some((name, cluster)) = random {
-        strength = Some((name, cluster.sigma));
-        let score = (2.0 * cluster.ln_bayes, 1);
-        named.push(Named { name, ln_bayes: cluster.ln_bayes, score, rivals: Vec::new() });
+    if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random {
+        strength = Some((name, sigma));
+        named.push(Named { name, ln_bayes, score: (2.0 * ln_bayes, 1), rivals: Vec::new() });
+        if name == "excess_noise" {
+            let shape = format!("noise in proportion to the signal, {:.2} %", 100.0 * sigma);
+            let chi2 = (2.0 * ln_bayes, 1);
+            places.push(Place {
+                coordinate: "amplitude",
+                shape,
+                ln_bayes,
+                chi2,
+                take: end.take,
+                is_random: true,
+            });
+        }
     }
     // A simulation of which nothing is described leaves out several things at once: what explains most of them is worth its name.
     let most_left = if data.assumed.camera { 0.5 } else { 0.1 };
@@ -170,9 +192,22 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         places.clear();
     }
     let fit = asserted(data, &found, &named, noise);
+    let shared_noise = random::noise(data, &end).filter(|noise| noise.level != Level::Pixel).map(words);
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
     let locations = [baseline, after];
-    Judgement { verdict, places, left, named, remainder, locations, random: strength, found, fit, noise }
+    Judgement {
+        verdict,
+        places,
+        left,
+        named,
+        remainder,
+        locations,
+        random: strength,
+        found,
+        fit,
+        noise,
+        shared_noise,
+    }
 }
 
 /// The fit of what is `named` alone: the search may have found more than stands.
@@ -201,55 +236,13 @@ fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, Location) {
     (found, end)
 }
 
-/// Noise that pixels do not share, beyond what was stated.
-fn noise_excess(data: &Data, location: &Location) -> Option<Cluster> {
-    let real = *real(data, location).first()?;
-    let ordered = location.columns.first().map_or(0.0, |columns| columns.ln_bayes);
-    (real.level == Level::Pixel && ordered < ORDERED_SHARE * real.ln_bayes).then_some(*real)
-}
-
-/// Random errors that are none of the encoder's usual noise, nor what that shows as elsewhere; best first.
-fn real<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
-    let metre_rad = data.takes.first().and_then(|take| take.moments.first());
-    let metre_rad = metre_rad.map_or(1.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
-    let is_usual = |cluster: &&Cluster| {
-        let usual_sigma = match MODES[cluster.mode] {
-            "phase" => USUAL_JITTER_M * metre_rad,
-            "position" => USUAL_JITTER_M,
-            _ => 0.0,
-        };
-        cluster.level == Level::Set && cluster.sigma < usual_sigma
-    };
-    let usual = location.clusters.iter().filter(is_usual).map(|cluster| cluster.ln_bayes);
-    let least = usual.fold(CLUSTER_NATS, f64::max);
-    location.clusters.iter().filter(|cluster| cluster.ln_bayes > least && !is_usual(cluster)).collect()
-}
-
-/// Evidence of columns that explain `chi2`, beside random errors: these make more of columns than noise does, by as much as they raise the
-/// variance.
-fn deflated(cluster: &Cluster, ln_bayes: f64, chi2: f64) -> f64 {
-    ln_bayes - 0.5 * chi2 * (1.0 - 1.0 / cluster.inflation)
-}
-
-/// A random effect of the registry, if the strongest cluster is what it makes, and nothing orders it.
-fn random_effect(data: &Data, location: &Location) -> Option<(&'static str, Cluster)> {
-    let cluster = *real(data, location).first()?;
-    let ordered = |located: &Located| deflated(cluster, located.ln_bayes, located.chi2.0);
-    let ordered = location.columns.iter().map(ordered).fold(0.0, f64::max);
-    if ordered > 0.02 * cluster.ln_bayes + LOCATED_NATS {
-        return None;
-    }
-    let name = match (cluster.level, MODES[cluster.mode]) {
-        (Level::Frame, "phase") => "clock_jitter",
-        (Level::Frame, "position") => "timing_jitter_of_frames",
-        _ => return None,
-    };
-    Some((name, *cluster))
-}
-
 /// Coordinates that stand out, most significant first.
 fn places(data: &Data, location: &Location) -> Vec<Place> {
-    let columns = location.columns.iter().filter(|located| located.ln_bayes > LOCATED_NATS);
+    // What noise shares makes more of columns than noise that nothing shares.
+    let inflation = random::noise(data, location).map_or(1.0, |noise| noise.inflation);
+    let stands_out =
+        |located: &&Located| deflated(inflation, located.ln_bayes, located.chi2.0) > LOCATED_NATS;
+    let columns = location.columns.iter().filter(stands_out);
     let mut places: Vec<Place> = columns
         .map(|located| Place {
             coordinate: located.coordinate,
@@ -260,17 +253,12 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
             is_random: false,
         })
         .collect();
-    let clusters = real(data, location);
+    let clusters = errors(data, location);
     let ordered = places.first().map_or(0.0, |place| place.ln_bayes);
     if let Some(cluster) = clusters.first() {
         let place = Place {
             coordinate: coordinate(cluster),
-            shape: format!(
-                "random {} of {:.3e}, common to a {}",
-                MODES[cluster.mode],
-                cluster.sigma,
-                common(cluster)
-            ),
+            shape: words(cluster),
             ln_bayes: cluster.ln_bayes,
             chi2: (2.0 * cluster.ln_bayes, 1),
             take: cluster.take,
@@ -282,28 +270,4 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
         }
     }
     places
-}
-
-fn coordinate(cluster: &Cluster) -> &'static str {
-    match cluster.level {
-        Level::Set if MODES[cluster.mode] == "velocity" => "velocity_m_s",
-        Level::Set if cluster.mode >= 2 => "encoder",
-        Level::Set => "set",
-        Level::Frame => "frame",
-        Level::Row => "row",
-        Level::Column => "column",
-        Level::Neighbours => "neighbours",
-        Level::Pixel => "amplitude",
-    }
-}
-
-fn common(cluster: &Cluster) -> &'static str {
-    match cluster.level {
-        Level::Set => "set",
-        Level::Frame => "frame",
-        Level::Row => "row",
-        Level::Column => "column",
-        Level::Neighbours => "few neighbours",
-        Level::Pixel => "pixel",
-    }
 }

@@ -22,11 +22,13 @@ mod pass;
 mod pieces;
 mod places;
 mod profiles;
+mod random;
 mod ranges;
 mod search;
 mod settle;
 mod simpler;
 mod verdict;
+mod white;
 
 pub use camera::camera_with;
 pub use data::{Assumed, Data, Take};

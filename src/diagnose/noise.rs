@@ -1,9 +1,12 @@
 //! The noise that the recordings themselves show: what a pixel's residual has that its neighbour's has not.
 
 use super::columns::Tangents;
-use super::data::Data;
+use super::data::{Data, Take};
 use super::fit::Fit;
-use super::gram::Noise;
+use super::gram::{Noise, whiten};
+use super::random::CLUSTER_NATS;
+use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
 
 /// So many frames at most are looked at, evenly over all.
 const FRAMES: usize = 64;
@@ -69,6 +72,104 @@ fn line(points: &[(f64, f64)]) -> Noise {
     Noise { floor: ROUNDING_DN2, slope, square: 0.0 }
 }
 
+/// The noise that residuals show.
+#[derive(Debug, Clone, Copy)]
+pub struct Beyond {
+    /// It, with what was stated.
+    pub noise: Noise,
+    /// Evidence (nats) that some of it is in proportion to the signal, rather than all of it like read and shot noise.
+    pub in_proportion: f64,
+}
+
+/// Bins of the signal, evenly over its root.
+const BINS: usize = 48;
+
+/// What the residuals of `fit` show beyond the noise that was `stated`: their squares over the signal, by least squares, no part less than
+/// was stated.
+pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
+    let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
+    let full_scale_dn = fit.pixels.full_scale_dn;
+    let frames =
+        |(take, recording): (usize, &Take)| (0..recording.moments.len()).map(move |index| (take, index));
+    let frames: Vec<(usize, usize)> = data.takes.iter().enumerate().flat_map(frames).collect();
+    // Samples, and sums of their signal and of their residual's square over the variance.
+    let add = |mut bins: Vec<[f64; 3]>, &(take, index): &(usize, usize)| {
+        let base = tangents.base(take, index);
+        let (roots, residuals) = whiten(data, take, index, &base, stated);
+        for ((&signal, residual), _) in
+            base.iter().zip(residuals).zip(&roots).filter(|(_, root)| **root > 0.0)
+        {
+            let place = (signal.max(0.0) / full_scale_dn).sqrt() * BINS as f64;
+            let [count, signals, squares] = &mut bins[(place as usize).min(BINS - 1)];
+            *count += 1.0;
+            *signals += signal.max(0.0);
+            *squares += residual * residual;
+        }
+        bins
+    };
+    let none = || vec![[0.0; 3]; BINS];
+    let bins = frames.par_iter().fold(none, add).reduce(none, |mut bins, others| {
+        bins.iter_mut().flatten().zip(others.into_iter().flatten()).for_each(|(sum, other)| *sum += other);
+        bins
+    });
+    let points = bins.into_iter().filter(|bin| bin[0] > 0.0).map(|[count, signals, squares]| {
+        let signal = signals / count;
+        let variance = stated.weight(signal).recip();
+        Point {
+            signal,
+            more: (squares / count - 1.0) * variance,
+            weight: count / (2.0 * variance * variance),
+        }
+    });
+    let points: Vec<Point> = points.collect();
+    let (like_stated, without) = least(&points, 2);
+    let (parts, with) = least(&points, 3);
+    let in_proportion = 0.5 * (without - with);
+    let parts = if in_proportion > CLUSTER_NATS { parts } else { like_stated };
+    let noise = Noise {
+        floor: stated.floor + parts[0],
+        slope: stated.slope + parts[1],
+        square: stated.square + parts[2],
+    };
+    Beyond { noise, in_proportion: if in_proportion > CLUSTER_NATS { in_proportion } else { 0.0 } }
+}
+
+/// Variance beyond what was stated, DN², at a signal, and the inverse square of what it is known to.
+struct Point {
+    signal: f64,
+    more: f64,
+    weight: f64,
+}
+
+/// The parts of 1, signal and its square that explain the `points` best, of which the first so `many` may be there, and none is negative;
+/// and the weighted squares that they leave.
+fn least(points: &[Point], many: usize) -> ([f64; 3], f64) {
+    let powers = |signal: f64| [1.0, signal, signal * signal];
+    let left = |parts: &[f64; 3]| -> f64 {
+        let of = |point: &Point| {
+            let said: f64 = parts.iter().zip(powers(point.signal)).map(|(part, power)| part * power).sum();
+            point.weight * (point.more - said).powi(2)
+        };
+        points.iter().map(of).sum()
+    };
+    let solved = |which: usize| -> Option<[f64; 3]> {
+        let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+        for point in points {
+            let powers = powers(point.signal);
+            let there = Vector3::from_fn(|n, _| if which >> n & 1 == 1 { powers[n] } else { 0.0 });
+            normal += point.weight * there * there.transpose();
+            right += point.weight * point.more * there;
+        }
+        let scale = normal.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 0.0 });
+        let scaled = Matrix3::from_fn(|r, c| normal[(r, c)] * scale[r] * scale[c]);
+        let solution = scaled.svd(true, true).solve(&right.component_mul(&scale), 1e-9).ok()?;
+        let parts: [f64; 3] = solution.component_mul(&scale).into();
+        parts.iter().all(|part| *part >= 0.0).then_some(parts)
+    };
+    let ways = (0..1 << many).filter_map(solved).map(|parts| (parts, left(&parts)));
+    ways.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(([0.0; 3], f64::INFINITY))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,5 +185,22 @@ mod tests {
         assert!(noise.slope == 0.0 && noise.floor > 100.0, "{noise:?}");
         let noise = line(&points(-3.0, 0.35));
         assert!(noise.floor == ROUNDING_DN2 && (0.3..0.35).contains(&noise.slope), "{noise:?}");
+    }
+
+    /// Of a noise that is the stated one times 1.3 nothing is in proportion to the signal; where it is, it is found.
+    #[test]
+    fn noise_is_more_of_the_same_or_in_proportion() {
+        let points = |floor: f64, slope: f64, square: f64| -> Vec<Point> {
+            let signals = (1..20).map(|n| 50.0 * f64::from(n));
+            let more = |signal: f64| floor + signal * (slope + signal * square);
+            signals.map(|signal| Point { signal, more: more(signal), weight: 1e4 }).collect()
+        };
+        let (parts, left) = least(&points(9.0, 0.05, 0.0), 2);
+        assert!((parts[0] - 9.0).abs() < 1e-6 && (parts[1] - 0.05).abs() < 1e-9 && left < 1e-6, "{parts:?}");
+        let (parts, left) = least(&points(0.0, 0.0, 1e-4), 3);
+        assert!(parts[..2] == [0.0; 2] && (parts[2] - 1e-4).abs() < 1e-12 && left < 1e-6, "{parts:?} {left}");
+        // Shot noise is the nearest to it that may be without it, and less than nothing is no noise.
+        assert!(least(&points(0.0, 0.0, 1e-4), 2).1 > 1e3);
+        assert_eq!(least(&points(-2.0, 0.0, 0.0), 3).0, [0.0; 3]);
     }
 }

@@ -259,7 +259,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
             "assumed": data.assumed,
             "every_so_many_rows_and_columns": data.grid.every,
             "noise": {"floor_dn2": judgement.noise.floor, "slope_dn": judgement.noise.slope,
-                      "relative_squared": judgement.noise.square},
+                      "relative_squared": judgement.noise.square, "shared": judgement.shared_noise},
             "encoder_sigma_m": judgement.fit.jitter_m2.sqrt(),
         }),
     }

@@ -43,6 +43,10 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
             let _ = writeln!(text, "  weak: with {percent:.0} % it is something unknown that looks like it");
         }
     }
+    if let Some(shared) = &diagnosis.judgement.shared_noise {
+        let _ =
+            writeln!(text, "Noise beside what the camera states: {shared}. No physics is left out by that.");
+    }
     let held = &answer.held_out;
     let _ = writeln!(
         text,

@@ -1,0 +1,131 @@
+//! What samples share at random: the encoder's usual noise, noise of rows, columns and frames, noise of single pixels, or an effect.
+
+use super::clusters::{Cluster, Level, MODES};
+use super::data::Data;
+use super::location::{Located, Location};
+
+/// Evidence (nats) from which on errors that samples share at random count: twenty of them are looked at.
+pub const CLUSTER_NATS: f64 = 6.0;
+/// A set's common position error up to this is the encoder's usual noise, m.
+const USUAL_JITTER_M: f64 = 0.5e-3;
+/// Of what random errors explain, columns of a coordinate must explain so much to be what they are.
+pub const ORDERED_SHARE: f64 = 0.2;
+/// Of the evidence for a random effect, columns explain less, but for what noise makes of them.
+const ORDERED_LEFT: (f64, f64) = (0.02, 4.0);
+/// Errors of rows, columns and frames that are less correlated than this, in standard deviations, are white.
+const WHITE: f64 = 4.5;
+
+/// Random errors that are none of the encoder's usual noise, nor what that shows as elsewhere; best first.
+fn unusual<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
+    let metre_rad = data.takes.first().and_then(|take| take.moments.first());
+    let metre_rad = metre_rad.map_or(1.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
+    let is_usual = |cluster: &&Cluster| {
+        let usual_sigma = match MODES[cluster.mode] {
+            "phase" => USUAL_JITTER_M * metre_rad,
+            "position" => USUAL_JITTER_M,
+            _ => 0.0,
+        };
+        cluster.level == Level::Set && cluster.sigma < usual_sigma
+    };
+    let usual = location.clusters.iter().filter(is_usual).map(|cluster| cluster.ln_bayes);
+    let least = usual.fold(CLUSTER_NATS, f64::max);
+    location.clusters.iter().filter(|cluster| cluster.ln_bayes > least && !is_usual(cluster)).collect()
+}
+
+/// Noise beyond what was stated, of pixels, or offsets of rows, columns or frames that are white: a camera has it, and no physics is left
+/// out.
+pub fn noise<'a>(data: &Data, location: &'a Location) -> Option<&'a Cluster> {
+    let strongest = *unusual(data, location).first()?;
+    (strongest.level == Level::Pixel || strongest.correlation < WHITE).then_some(strongest)
+}
+
+/// Random errors that are no noise; best first. Of noise everything else that is random is a shadow.
+pub fn errors<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
+    if noise(data, location).is_some() { Vec::new() } else { unusual(data, location) }
+}
+
+/// By how much random errors, noise among them, raise the variance of what columns say; 1 where there are none.
+pub fn inflation(data: &Data, location: &Location) -> f64 {
+    unusual(data, location).iter().map(|cluster| cluster.inflation).fold(1.0, f64::max)
+}
+
+/// Whether there is noise of single pixels beyond what was stated, and nothing that orders it.
+pub fn is_noisier(data: &Data, location: &Location) -> bool {
+    let ordered = location.columns.first().map_or(0.0, |columns| columns.ln_bayes);
+    noise(data, location)
+        .is_some_and(|noise| noise.level == Level::Pixel && ordered < ORDERED_SHARE * noise.ln_bayes)
+}
+
+/// Evidence of columns that explain `chi2`, beside random errors which raise the variance by `inflation`: these make more of columns than
+/// noise does.
+pub fn deflated(inflation: f64, ln_bayes: f64, chi2: f64) -> f64 {
+    ln_bayes - 0.5 * chi2 * (1.0 - 1.0 / inflation)
+}
+
+/// A random effect of the registry.
+#[derive(Debug, Clone, Copy)]
+pub struct RandomEffect {
+    /// Its name.
+    pub name: &'static str,
+    /// Its standard deviation.
+    pub sigma: f64,
+    /// Evidence, nats.
+    pub ln_bayes: f64,
+    /// By how much it raises the variance of what columns say.
+    pub inflation: f64,
+}
+
+/// A random effect of the registry, if the strongest errors are what it makes, and nothing orders them.
+pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
+    let Cluster { level, mode, sigma, ln_bayes, inflation, .. } = **errors(data, location).first()?;
+    let ordered = |located: &Located| deflated(inflation, located.ln_bayes, located.chi2.0);
+    let ordered = location.columns.iter().map(ordered).fold(0.0, f64::max);
+    if ordered > ORDERED_LEFT.0 * ln_bayes + ORDERED_LEFT.1 {
+        return None;
+    }
+    let name = match (level, MODES[mode]) {
+        (Level::Frame, "phase") => "clock_jitter",
+        (Level::Frame, "position") => "timing_jitter_of_frames",
+        _ => return None,
+    };
+    Some(RandomEffect { name, sigma, ln_bayes, inflation })
+}
+
+/// The coordinate of a verdict in which errors that samples share are located.
+pub fn coordinate(cluster: &Cluster) -> &'static str {
+    match cluster.level {
+        Level::Set if MODES[cluster.mode] == "velocity" => "velocity_m_s",
+        Level::Set if cluster.mode >= 2 => "encoder",
+        Level::Set => "set",
+        Level::Frame => "frame",
+        Level::Row => "row",
+        Level::Column => "column",
+        Level::Neighbours => "neighbours",
+        Level::Pixel => "amplitude",
+    }
+}
+
+/// What the errors are, in words.
+pub fn words(cluster: &Cluster) -> String {
+    let common = match cluster.level {
+        Level::Set => "set",
+        Level::Frame => "frame",
+        Level::Row => "row",
+        Level::Column => "column",
+        Level::Neighbours => "few neighbours",
+        Level::Pixel => "pixel",
+    };
+    format!("random {} of {:.3e}, common to a {common}", MODES[cluster.mode], cluster.sigma)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::deflated;
+
+    #[test]
+    fn evidence_is_less_beside_random_errors() {
+        assert_eq!(deflated(1.0, 30.0, 70.0), 30.0);
+        // 107 of chi squared are 7 beside noise of fifteen times the variance: nothing for ten numbers.
+        assert!(deflated(15.0, 31.7, 107.0) < 0.0);
+    }
+}

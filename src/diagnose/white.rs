@@ -1,0 +1,105 @@
+//! Whether errors that samples share are white, as noise is: not alike in neighbouring rows, in one frame after the other, in one set after
+//! the other.
+
+use std::collections::VecDeque;
+
+/// Lags along a frame: from a row, or column, to another.
+const ALONG: [usize; 4] = [1, 2, 4, 8];
+/// Those, and from a frame to the next, and from a set's frame to the same of the next set.
+const LAGS: usize = ALONG.len() + 2;
+
+/// Sums over products of errors.
+#[derive(Debug, Clone, Default)]
+pub struct White {
+    /// Of each lag: products, and their squares.
+    sums: [(f64, f64); LAGS],
+    /// The errors of the frames before, the last one first: as many as a set has.
+    before: VecDeque<Vec<f64>>,
+}
+
+impl White {
+    /// With the `errors` of number `frame` of a set of so many `frames`, in standard deviations; `is_first`: nothing was before.
+    pub fn add(&mut self, errors: Vec<f64>, frame: usize, frames: usize, is_first: bool) {
+        if is_first {
+            self.before.clear();
+        }
+        for (lag, sum) in ALONG.into_iter().zip(&mut self.sums) {
+            products(sum, &errors, errors.get(lag..).unwrap_or_default());
+        }
+        // A frame of the same set, and one of the set before.
+        let before = [(frame > 0).then_some(0), frames.checked_sub(1)];
+        for (which, sum) in before.into_iter().zip(&mut self.sums[ALONG.len()..]) {
+            let other = which.and_then(|which| self.before.get(which));
+            products(sum, &errors, other.map_or(&[][..], |other| &other[..]));
+        }
+        self.before.push_front(errors);
+        self.before.truncate(frames);
+    }
+
+    /// Those of both.
+    pub fn and(mut self, other: &Self) -> Self {
+        for (sum, other) in self.sums.iter_mut().zip(other.sums) {
+            *sum = (sum.0 + other.0, sum.1 + other.1);
+        }
+        self
+    }
+
+    /// The greatest correlation, in the standard deviations of what white noise makes.
+    pub fn correlation(&self) -> f64 {
+        let of = |&(sum, squares): &(f64, f64)| if squares > 0.0 { sum.abs() / squares.sqrt() } else { 0.0 };
+        self.sums.iter().map(of).fold(0.0, f64::max)
+    }
+}
+
+fn products(sum: &mut (f64, f64), some: &[f64], others: &[f64]) {
+    for product in some.iter().zip(others).map(|(one, other)| one * other) {
+        sum.0 += product;
+        sum.1 += product * product;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::Draws;
+
+    const ROWS: usize = 12;
+    const FRAMES: usize = 4;
+
+    /// Of 40 sets, whose errors `error` makes of draws, set, frame and row.
+    fn correlation(error: impl Fn(&[f64], usize, usize, usize) -> f64) -> f64 {
+        let mut white = White::default();
+        for set in 0..40 {
+            for frame in 0..FRAMES {
+                let draws = Draws::of(7, (set * FRAMES + frame) as u64).normal(ROWS);
+                let errors = (0..ROWS).map(|row| error(&draws, set, frame, row)).collect();
+                white.add(errors, frame, FRAMES, set == 0 && frame == 0);
+            }
+        }
+        white.correlation()
+    }
+
+    #[test]
+    fn noise_is_white_and_what_repeats_is_not() {
+        assert!(correlation(|draws, _, _, row| draws[row]) < 3.5);
+        // Alike in every other row, in the frames of a set, from set to set.
+        let alike = |sign: f64| 0.7 * sign;
+        assert!(correlation(|draws, _, _, row| draws[row] + alike([1.0, -1.0][row % 2])) > 10.0);
+        assert!(
+            correlation(|draws, set, _, row| draws[row] + alike([1.0, -1.0][(set * 7 + row * row) / 3 % 2]))
+                > 10.0
+        );
+        assert!(
+            correlation(|draws, _, frame, row| draws[row] + alike([1.0, -1.0][(frame * row + frame) / 2 % 2]))
+                > 10.0
+        );
+    }
+
+    #[test]
+    fn both_parts_count() {
+        let mut one = White::default();
+        (0..9).for_each(|frame| one.add(vec![1.0; ROWS], frame % 3, 3, frame == 0));
+        let both = one.clone().and(&one);
+        assert!((both.correlation() / one.correlation() - 2f64.sqrt()).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,120 @@
+//! `vuris diagnose` of cameras whose noise is not what their description says: no physics is left out by that, and what is left out is
+//! named nevertheless.
+
+mod diagnosed;
+mod rewritten;
+
+use diagnosed::{names, verdict, vuris};
+use rewritten::{Sample, rewrite};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use vuris::physics::Draws;
+
+const HEIGHT: usize = 10;
+const WIDTH: usize = 12;
+
+/// A sample of a campaign: the number of its frame, its row and column.
+type Place = (usize, usize, usize);
+
+/// A campaign with `effects`, to whose codes `noise` is added.
+fn campaign(folder: &Path, name: &str, effects: &[&str], noise: impl Fn(Place, f64) -> f64) -> PathBuf {
+    let out = folder.join(name);
+    let size = format!("{WIDTH}x{HEIGHT}");
+    let mut arguments = vec!["simulate", "--out", out.to_str().unwrap(), "--size", &size, "--seed", "31"];
+    effects.iter().for_each(|effect| arguments.extend(["--effect", effect]));
+    let (good, text) = vuris(&arguments);
+    assert!(good, "{text}");
+    rewrite(&out, |Sample { recording, set, frame, row, column, code }| {
+        // No recording has more frames a set, or more sets, than this.
+        code + noise(((((recording << 10) + set) << 6) + frame, row, column), code)
+    });
+    out
+}
+
+/// A standard normal deviate for each of `what`, which is the same whenever it is asked for.
+fn draw(stream: u64, what: usize) -> f64 {
+    Draws::of(stream, what as u64).normal(1)[0]
+}
+
+fn shared(verdict: &Value) -> &str {
+    verdict["provenance"]["noise"]["shared"].as_str().unwrap_or_default()
+}
+
+/// What is added to a code.
+type Added = fn(Place, f64) -> f64;
+
+/// A noise, and what of it is said to be shared.
+type Noise = (&'static str, Added, &'static str);
+
+const NOISES: [Noise; 6] = [
+    (
+        "rows of a third of the read noise",
+        |(frame, row, _), _| draw(1, frame * HEIGHT + row),
+        "common to a row",
+    ),
+    ("rows as noisy as pixels", |(frame, row, _), _| 3.0 * draw(2, frame * HEIGHT + row), "common to a row"),
+    ("columns", |(frame, _, column), _| draw(3, frame * WIDTH + column), "common to a column"),
+    ("frames", |(frame, ..), _| draw(4, frame), "common to a frame"),
+    (
+        "more of all noise, by 30 %",
+        |(frame, row, column), code| {
+            let variance = 9.0 + (code - 64.0).max(0.0) / 12.0;
+            (0.69 * variance).sqrt() * draw(5, (frame * HEIGHT + row) * WIDTH + column)
+        },
+        "",
+    ),
+    (
+        "outliers",
+        |(frame, row, column), _| match draw(6, (frame * HEIGHT + row) * WIDTH + column) {
+            size if size.abs() > 2.97 => 80.0 * size.signum(),
+            _ => 0.0,
+        },
+        "",
+    ),
+];
+
+#[test]
+fn noise_that_was_not_stated_raises_no_alarm() {
+    let folder = tempfile::tempdir().unwrap();
+    for (number, (what, noise, words)) in NOISES.into_iter().enumerate() {
+        let verdict = verdict(&campaign(folder.path(), &number.to_string(), &[], noise));
+        assert_eq!(verdict["verdict"], "clean", "{what}: {verdict:#}");
+        assert!(shared(&verdict).contains(words), "{what}: {verdict:#}");
+    }
+}
+
+#[test]
+fn an_effect_is_named_beside_noise_that_was_not_stated() {
+    let folder = tempfile::tempdir().unwrap();
+    for (number, (what, noise, words)) in NOISES.into_iter().enumerate() {
+        let effect = ["image_lag:share=0.03"];
+        let verdict = verdict(&campaign(folder.path(), &number.to_string(), &effect, noise));
+        assert_eq!(names(&verdict), ["image_lag"], "{what}: {verdict:#}");
+        assert!(shared(&verdict).contains(words), "{what}: {verdict:#}");
+    }
+}
+
+/// Rows that are off by what repeats, or stands still along the rows or in time, are no noise: that is an effect which nobody knows.
+#[test]
+fn rows_that_are_not_white_are_no_noise() {
+    let folder = tempfile::tempdir().unwrap();
+    let patterns: [(&str, Added); 2] = [
+        ("waves", |(frame, row, _), _| 2.0 * (1.1 * row as f64 + 7.0 * draw(7, frame)).sin()),
+        ("rows that stay for two frames", |(frame, row, _), _| 1.5 * draw(8, frame / 2 * HEIGHT + row)),
+    ];
+    for (what, pattern) in patterns {
+        let verdict = verdict(&campaign(folder.path(), what, &[], pattern));
+        assert_eq!(verdict["verdict"], "unexplained", "{what}: {verdict:#}");
+        assert_eq!(verdict["located"][0]["coordinate"], "row", "{what}: {verdict:#}");
+    }
+}
+
+/// Noise in proportion to the signal is an effect of the registry, beside read and shot noise.
+#[test]
+fn noise_in_proportion_to_the_signal_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let verdict = verdict(&campaign(folder.path(), "excess", &["excess_noise:relative=0.02"], |_, _| 0.0));
+    assert_eq!(names(&verdict), ["excess_noise"], "{verdict:#}");
+    let relative = verdict["effects"][0]["parameters"][0]["value"].as_f64().unwrap();
+    assert!((relative - 0.02).abs() < 0.002, "{relative}");
+}

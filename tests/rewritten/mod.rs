@@ -1,0 +1,40 @@
+//! Campaigns with other frames than the simulator's.
+
+use std::path::Path;
+use vuris::frames::RawSets;
+use vuris::recording::{Recording, write_recording};
+
+/// A sample of a campaign, by numbers from 0.
+#[derive(Clone, Copy)]
+#[allow(dead_code)]
+pub struct Sample {
+    pub recording: usize,
+    pub set: usize,
+    /// Of its set.
+    pub frame: usize,
+    pub row: usize,
+    pub column: usize,
+    pub code: f64,
+}
+
+/// Rewrites every code of the campaign's recordings by `change`.
+pub fn rewrite(campaign: &Path, change: impl Fn(Sample) -> f64) {
+    let entries = std::fs::read_dir(campaign).unwrap().map(|entry| entry.unwrap().path());
+    let mut folders: Vec<_> = entries.filter(|folder| folder.join("recording.toml").exists()).collect();
+    folders.sort();
+    for (number, folder) in folders.iter().enumerate() {
+        let mut recording = Recording::open(folder).unwrap();
+        let geometry = recording.geometry();
+        let frames = recording.raw.frames_per_set();
+        let codes = recording.raw.codes().iter().enumerate().map(|(at, &code)| {
+            let (index, (row, column)) =
+                (at / geometry.pixels(), geometry.row_column(at % geometry.pixels()));
+            let (set, frame, code) = (index / frames, index % frames, f64::from(code));
+            let changed = change(Sample { recording: number, set, frame, row, column, code });
+            changed.round().clamp(0.0, 4095.0) as u32
+        });
+        recording.raw = RawSets::new(geometry, frames, codes.collect()).unwrap();
+        std::fs::remove_dir_all(folder).unwrap();
+        write_recording(&recording, folder).unwrap();
+    }
+}
