@@ -5,15 +5,16 @@ use std::collections::VecDeque;
 
 /// Lags along a frame: from a row, or column, to another.
 const ALONG: [usize; 4] = [1, 2, 4, 8];
-/// Those, and from a frame to the next, and from a set's frame to the same of the next set.
-const LAGS: usize = ALONG.len() + 2;
+/// Lags from frame to frame within a set, and from a set's frame to the same of another.
+const AFTER: [usize; 2] = [1, 2];
+const LAGS: usize = ALONG.len() + 2 * AFTER.len();
 
 /// Sums over products of errors.
 #[derive(Debug, Clone, Default)]
 pub struct White {
     /// Of each lag: products, and their squares.
     sums: [(f64, f64); LAGS],
-    /// The errors of the frames before, the last one first: as many as a set has.
+    /// The errors of the frames before, the last one first: as many as two sets have.
     before: VecDeque<Vec<f64>>,
 }
 
@@ -26,14 +27,14 @@ impl White {
         for (lag, sum) in ALONG.into_iter().zip(&mut self.sums) {
             products(sum, &errors, errors.get(lag..).unwrap_or_default());
         }
-        // A frame of the same set, and one of the set before.
-        let before = [(frame > 0).then_some(0), frames.checked_sub(1)];
-        for (which, sum) in before.into_iter().zip(&mut self.sums[ALONG.len()..]) {
-            let other = which.and_then(|which| self.before.get(which));
+        let of_frames = AFTER.map(|lag| if frame >= lag { lag } else { 0 });
+        let of_sets = AFTER.map(|lag| lag * frames);
+        for (lag, sum) in of_frames.into_iter().chain(of_sets).zip(&mut self.sums[ALONG.len()..]) {
+            let other = lag.checked_sub(1).and_then(|place| self.before.get(place));
             products(sum, &errors, other.map_or(&[][..], |other| &other[..]));
         }
         self.before.push_front(errors);
-        self.before.truncate(frames);
+        self.before.truncate(AFTER[1] * frames);
     }
 
     /// Those of both.
