@@ -80,6 +80,11 @@ fn noise_that_was_not_stated_raises_no_alarm() {
         let verdict = verdict(&campaign(folder.path(), &number.to_string(), &[], noise));
         assert_eq!(verdict["verdict"], "clean", "{what}: {verdict:#}");
         assert!(shared(&verdict).contains(words), "{what}: {verdict:#}");
+        assert_eq!(shared(&verdict).is_empty(), words.is_empty(), "{what}: {verdict:#}");
+        let floor_dn2 = verdict["provenance"]["noise"]["floor_dn2"].as_f64().unwrap();
+        // 9 DN² of read noise and 1/12 of rounding, 0.69 of 9 more.
+        let is_more = (floor_dn2 - 15.3).abs() < 1.0;
+        assert_eq!(is_more, what.starts_with("more of all noise"), "{what}: {floor_dn2}");
     }
 }
 
@@ -107,6 +112,16 @@ fn rows_that_are_not_white_are_no_noise() {
         assert_eq!(verdict["verdict"], "unexplained", "{what}: {verdict:#}");
         assert_eq!(verdict["located"][0]["coordinate"], "row", "{what}: {verdict:#}");
     }
+}
+
+/// Noise in proportion to the signal does not take with it what else is wrong.
+#[test]
+fn rows_that_are_not_white_are_seen_beside_noise_in_proportion() {
+    let folder = tempfile::tempdir().unwrap();
+    let waves = |(frame, row, _): Place, _| 2.0 * (1.1 * row as f64 + 7.0 * draw(7, frame)).sin();
+    let verdict = verdict(&campaign(folder.path(), "both", &["excess_noise:relative=0.02"], waves));
+    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    assert_eq!(verdict["located"][0]["coordinate"], "row", "{verdict:#}");
 }
 
 /// Noise in proportion to the signal is an effect of the registry, beside read and shot noise.

@@ -56,8 +56,9 @@ pub struct Cluster {
     pub ln_bayes: f64,
     /// The recording that shows it most.
     pub take: usize,
-    /// Of errors of frames, rows and columns: the greatest correlation among them, in the standard deviations of what white noise makes.
-    pub correlation: f64,
+    /// Of offsets of frames, rows and columns: how correlated they are, in the standard deviations of what white noise makes, where it is
+    /// known.
+    pub correlation: Option<f64>,
 }
 
 /// Of a level and mode: clusters, their information, its square, and the scores' squares beyond what noise makes.
@@ -199,7 +200,7 @@ impl Clusters {
                     take: take.unwrap_or(0),
                     correlation: match OFFSETS.iter().position(|offset| *offset == level) {
                         Some(place) if mode == 0 => self.white[place].correlation(),
-                        _ => f64::INFINITY,
+                        _ => None,
                     },
                 });
             }

@@ -46,6 +46,8 @@ pub const VISIBLE: f64 = 1e-6;
 const LEAST_RHO: f64 = 1.0;
 const LEAST_EIGENVALUE: f64 = 1e-4;
 const LEAST_PRIOR: f64 = 4.0;
+/// By so much evidence (nats) each way is preferred to the next one.
+const FIRST_NATS: f64 = 0.01;
 
 /// Evidence for a common error of `variance` in one cluster whose score and information are these, nats.
 pub fn of_variance(variance: f64, score: f64, information: f64) -> f64 {
@@ -159,7 +161,9 @@ impl<'a> Evidence<'a> {
         }
         let variants: f64 = chosen.iter().map(|&block| self.blocks[block].variants.max(1.0).ln()).sum();
         let effects = chosen.len() as f64;
-        ln_bayes - effects - effects * (2.0 * self.candidates).ln() - variants
+        // Of ways that say the same the first one is it.
+        let later: f64 = chosen.iter().map(|&block| FIRST_NATS * self.blocks[block].variant as f64).sum();
+        ln_bayes - effects - effects * (2.0 * self.candidates).ln() - variants - later
     }
 
     /// All single blocks and all pairs of different candidates, best first.

@@ -63,6 +63,9 @@ impl Noise {
     }
 }
 
+/// Sets are summed in so many chunks, of so many sets at least and at most.
+const CHUNKS: usize = 16;
+const CHUNK: (usize, usize) = (8, 64);
 /// Residuals beyond so many standard deviations count as that many.
 const WINSOR: f64 = 4.0;
 
@@ -146,7 +149,8 @@ impl Gram {
         let sets = data.sets();
         let columns: Vec<usize> = columns.iter().map(|columns| columns + tangents.count()).collect();
         let (pixels, count) = (data.pixels(), sets.len());
-        let chunk = sets.len().div_ceil(2 * rayon::current_num_threads()).max(1);
+        // The same on every machine: what looks from set to set does not look from one chunk to the next.
+        let chunk = sets.len().div_ceil(CHUNKS).clamp(CHUNK.0, CHUNK.1);
         let indexed: Vec<(usize, (usize, usize))> =
             sets.into_iter().enumerate().filter(|&(n, _)| counts(n)).collect();
         indexed

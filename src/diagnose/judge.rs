@@ -114,12 +114,11 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let dropped = named.len() < found.named.len();
 
     // A random effect takes with it what is left at random.
-    let random = random_effect(data, &end).or_else(|| {
-        // Else it is the noise that was stated, and more of it.
-        let sigma = (noise.square - stated.square).max(0.0).sqrt();
-        let excess = RandomEffect { name: "excess_noise", sigma, ln_bayes: in_proportion, inflation: 1.0 };
-        (in_proportion > CLUSTER_NATS).then_some(excess)
-    });
+    let random = random_effect(data, &end);
+    // Else it is the noise that was stated, and more of it.
+    let sigma = (noise.square - stated.square).max(0.0).sqrt();
+    let excess = RandomEffect { name: "excess_noise", sigma, ln_bayes: in_proportion, inflation: 1.0 };
+    let excess = (random.is_none() && in_proportion > CLUSTER_NATS).then_some(excess);
     let is_left = |place: &&Place| {
         random.is_none_or(|random| {
             !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
@@ -142,7 +141,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         && baseline.columns.first().is_some_and(|best| best.ln_bayes > together);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
-    if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random {
+    if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random.or(excess) {
         strength = Some((name, sigma));
         named.push(Named { name, ln_bayes, score: (2.0 * ln_bayes, 1), rivals: Vec::new() });
         if name == "excess_noise" {

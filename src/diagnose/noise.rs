@@ -114,12 +114,10 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
     });
     let points = bins.into_iter().filter(|bin| bin[0] > 0.0).map(|[count, signals, squares]| {
         let signal = signals / count;
-        let variance = stated.weight(signal).recip();
-        Point {
-            signal,
-            more: (squares / count - 1.0) * variance,
-            weight: count / (2.0 * variance * variance),
-        }
+        let (variance, ratio) = (stated.weight(signal).recip(), squares / count);
+        // The squares scatter by the variance that there is.
+        let scatter = variance * ratio.max(1.0);
+        Point { signal, more: (ratio - 1.0) * variance, weight: count / (2.0 * scatter * scatter) }
     });
     let points: Vec<Point> = points.collect();
     let (like_stated, without) = least(&points, 2);

@@ -171,7 +171,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         // A phase shifter that has so many settings of its own has the same in all recordings.
         let is_shared = chosen > 1.0;
         let groupings = if is_shared { &[Grouping::All][..] } else { groupings };
-        let strengths = if is_shared { &strengths[..chosen as usize] } else { &strengths[..] };
+        let strengths =
+            if is_shared { strengths.get(..chosen as usize).unwrap_or(&strengths) } else { &strengths[..] };
         for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
             let of = |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data) };
             variants.extend(groupings.iter().map(of));

@@ -4,16 +4,17 @@ use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
 use super::location::{Located, Location};
 
-/// Evidence (nats) from which on errors that samples share at random count: twenty of them are looked at.
-pub const CLUSTER_NATS: f64 = 6.0;
+/// Evidence (nats) from which on errors that samples share at random count: some twenty-five of them are looked at.
+pub const CLUSTER_NATS: f64 = 7.0;
 /// A set's common position error up to this is the encoder's usual noise, m.
 const USUAL_JITTER_M: f64 = 0.5e-3;
 /// Of what random errors explain, columns of a coordinate must explain so much to be what they are.
 pub const ORDERED_SHARE: f64 = 0.2;
 /// Of the evidence for a random effect, columns explain less, but for what noise makes of them.
 const ORDERED_LEFT: (f64, f64) = (0.02, 4.0);
-/// Errors of rows, columns and frames that are less correlated than this, in standard deviations, are white.
-const WHITE: f64 = 4.5;
+/// Errors of rows, columns and frames that are less correlated than this, in standard deviations, are white: of eight lags one in two
+/// hundred is above it by chance.
+const WHITE: f64 = 3.5;
 
 /// Random errors that are none of the encoder's usual noise, nor what that shows as elsewhere; best first.
 fn unusual<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
@@ -36,10 +37,11 @@ fn unusual<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
 /// out.
 pub fn noise<'a>(data: &Data, location: &'a Location) -> Option<&'a Cluster> {
     let strongest = *unusual(data, location).first()?;
-    (strongest.level == Level::Pixel || strongest.correlation < WHITE).then_some(strongest)
+    let is_white = strongest.correlation.is_some_and(|correlation| correlation < WHITE);
+    (strongest.level == Level::Pixel || is_white).then_some(strongest)
 }
 
-/// Random errors that are no noise; best first. Of noise everything else that is random is a shadow.
+/// Random errors that are no noise; best first. Beside noise none is known: each of them would be seen as a shadow of it.
 pub fn errors<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
     if noise(data, location).is_some() { Vec::new() } else { unusual(data, location) }
 }
@@ -115,7 +117,15 @@ pub fn words(cluster: &Cluster) -> String {
         Level::Neighbours => "few neighbours",
         Level::Pixel => "pixel",
     };
-    format!("random {} of {:.3e}, common to a {common}", MODES[cluster.mode], cluster.sigma)
+    let unit = match (MODES[cluster.mode], cluster.level) {
+        ("offset", _) => " DN",
+        ("gain", _) => "",
+        ("phase", _) => " rad",
+        ("position", Level::Set) => " m",
+        ("position", _) => " s of movement",
+        _ => " m/s",
+    };
+    format!("random {} of {:.3e}{unit}, common to a {common}", MODES[cluster.mode], cluster.sigma)
 }
 
 #[cfg(test)]

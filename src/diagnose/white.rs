@@ -9,11 +9,18 @@ const ALONG: [usize; 4] = [1, 2, 4, 8];
 const AFTER: [usize; 2] = [1, 2];
 const LAGS: usize = ALONG.len() + 2 * AFTER.len();
 
+/// Of fewer products nothing is known: z is no more than their number's root.
+const LEAST: usize = 60;
+/// Frames that there are at least for each error of a frame.
+const FRAMES_AN_ERROR: usize = 8;
+
 /// Sums over products of errors.
 #[derive(Debug, Clone, Default)]
 pub struct White {
-    /// Of each lag: products, and their squares.
-    sums: [(f64, f64); LAGS],
+    /// Of each lag: products, their squares, and how many there are.
+    sums: [(f64, f64, usize); LAGS],
+    /// Frames, and the most errors that one has.
+    seen: (usize, usize),
     /// The errors of the frames before, the last one first: as many as two sets have.
     before: VecDeque<Vec<f64>>,
 }
@@ -24,6 +31,7 @@ impl White {
         if is_first {
             self.before.clear();
         }
+        self.seen = (self.seen.0 + 1, self.seen.1.max(errors.len()));
         for (lag, sum) in ALONG.into_iter().zip(&mut self.sums) {
             products(sum, &errors, errors.get(lag..).unwrap_or_default());
         }
@@ -40,22 +48,31 @@ impl White {
     /// Those of both.
     pub fn and(mut self, other: &Self) -> Self {
         for (sum, other) in self.sums.iter_mut().zip(other.sums) {
-            *sum = (sum.0 + other.0, sum.1 + other.1);
+            *sum = (sum.0 + other.0, sum.1 + other.1, sum.2 + other.2);
         }
+        self.seen = (self.seen.0 + other.seen.0, self.seen.1.max(other.seen.1));
         self
     }
 
-    /// The greatest correlation, in the standard deviations of what white noise makes.
-    pub fn correlation(&self) -> f64 {
-        let of = |&(sum, squares): &(f64, f64)| if squares > 0.0 { sum.abs() / squares.sqrt() } else { 0.0 };
-        self.sums.iter().map(of).fold(0.0, f64::max)
+    /// How far the correlations of all lags together, z² each, are above what white noise makes, in its standard deviations; nothing where too
+    /// little was seen to tell.
+    ///
+    /// Residuals of a fit of four numbers a pixel are anticorrelated by 4 over the frames, z = -4 √(errors / frames).
+    pub fn correlation(&self) -> Option<f64> {
+        let (frames, errors) = self.seen;
+        let known = self.sums.iter().filter(|(_, squares, count)| *count >= LEAST && *squares > 0.0);
+        let squares: Vec<f64> = known.map(|(sum, squares, _)| sum * sum / squares).collect();
+        let count = squares.len() as f64;
+        let correlation = (squares.iter().sum::<f64>() - count) / (2.0 * count).sqrt();
+        (!squares.is_empty() && frames >= FRAMES_AN_ERROR * errors).then_some(correlation)
     }
 }
 
-fn products(sum: &mut (f64, f64), some: &[f64], others: &[f64]) {
+fn products(sum: &mut (f64, f64, usize), some: &[f64], others: &[f64]) {
     for product in some.iter().zip(others).map(|(one, other)| one * other) {
         sum.0 += product;
         sum.1 += product * product;
+        sum.2 += 1;
     }
 }
 
@@ -66,23 +83,24 @@ mod tests {
 
     const ROWS: usize = 12;
     const FRAMES: usize = 4;
+    const SETS: usize = 40;
 
-    /// Of 40 sets, whose errors `error` makes of draws, set, frame and row.
+    /// Of sets, whose errors `error` makes of draws, set, frame and row.
     fn correlation(error: impl Fn(&[f64], usize, usize, usize) -> f64) -> f64 {
         let mut white = White::default();
-        for set in 0..40 {
+        for set in 0..SETS {
             for frame in 0..FRAMES {
                 let draws = Draws::of(7, (set * FRAMES + frame) as u64).normal(ROWS);
                 let errors = (0..ROWS).map(|row| error(&draws, set, frame, row)).collect();
                 white.add(errors, frame, FRAMES, set == 0 && frame == 0);
             }
         }
-        white.correlation()
+        white.correlation().unwrap()
     }
 
     #[test]
     fn noise_is_white_and_what_repeats_is_not() {
-        assert!(correlation(|draws, _, _, row| draws[row]) < 3.5);
+        assert!(correlation(|draws, _, _, row| draws[row]) < 3.0);
         // Alike in every other row, in the frames of a set, from set to set.
         let alike = |sign: f64| 0.7 * sign;
         assert!(correlation(|draws, _, _, row| draws[row] + alike([1.0, -1.0][row % 2])) > 10.0);
@@ -98,9 +116,17 @@ mod tests {
 
     #[test]
     fn both_parts_count() {
-        let mut one = White::default();
-        (0..9).for_each(|frame| one.add(vec![1.0; ROWS], frame % 3, 3, frame == 0));
+        let frames = |frames: usize| {
+            let mut white = White::default();
+            (0..frames).for_each(|frame| white.add(vec![1.0; ROWS], frame % 3, 3, frame == 0));
+            white
+        };
+        let one = frames(120);
         let both = one.clone().and(&one);
-        assert!((both.correlation() / one.correlation() - 2f64.sqrt()).abs() < 1e-12);
+        // Twice as much is known: z² are twice as great, of which 8 and a half are white noise's, at most.
+        let ratio = both.correlation().unwrap() / one.correlation().unwrap();
+        assert!((ratio - 2.0).abs() < 0.05, "{ratio}");
+        // So few frames say nothing.
+        assert_eq!(frames(9).correlation(), None);
     }
 }

@@ -53,11 +53,11 @@ impl Moment {
             return [moment(index - 1); 2];
         }
         let (second, last) = (index + usize::from(first.frames > 1), index + first.frames.max(1) - 1);
-        [2.0 * first.step_rad - moment(second).step_rad, moment(last).step_rad].map(|step_rad| Self {
-            step_rad,
+        let evenly = Self { step_rad: 2.0 * first.step_rad - moment(second).step_rad, ..first };
+        [evenly, moment(last)].map(|frame| Self {
             in_set_s: first.in_set_s - first.frame_period_s,
             time_s: first.time_s - first.frame_period_s,
-            ..first
+            ..frame
         })
     }
 }
