@@ -59,8 +59,8 @@ coverage: setup build ## lines that run and bits that move: docs/coverage-*.md
 prove: setup build ## formal proofs, their covers, and designs in which each must fail
 	$(VURIS) prove --spec vuris
 
-study: build ## how often the diagnosis is right: docs/study.md (a quarter of an hour)
-	$(VURIS) study --nulls 200 --repeats 2 --seed 1 --out docs
+study: build ## how often the diagnosis is right: docs/study.md (ten minutes)
+	$(VURIS) study --nulls 200 --repeats 1 --seed 1 --out docs
 
 PROOF := $(or $(CARGO_TARGET_DIR),target)/proof
 
