@@ -9,8 +9,8 @@ use super::noise::beyond;
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::{Piece, tolerance};
 use super::random::{
-    self, CLUSTER_NATS, ORDERED_SHARE, RandomEffect, coordinate, deflated, errors, inflation, is_noisier,
-    random_effect, words,
+    self, ORDERED_SHARE, RandomEffect, coordinate, deflated, errors, inflation, is_noisier, random_effect,
+    words,
 };
 use super::search::{Found, Named, search};
 use crate::physics::effects;
@@ -118,7 +118,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // Else it is the noise that was stated, and more of it.
     let sigma = (noise.square - stated.square).max(0.0).sqrt();
     let excess = RandomEffect { name: "excess_noise", sigma, ln_bayes: in_proportion, inflation: 1.0 };
-    let excess = (random.is_none() && in_proportion > CLUSTER_NATS).then_some(excess);
+    let excess = (random.is_none() && in_proportion > 0.0).then_some(excess);
     let is_left = |place: &&Place| {
         random.is_none_or(|random| {
             !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS

@@ -1,4 +1,5 @@
-//! The noise that the recordings themselves show: what a pixel's residual has that its neighbour's has not.
+//! The noise that the recordings themselves show: what a pixel's residual has that its neighbour's has not, and what residuals of a fit
+//! have beyond the noise that was stated.
 
 use super::columns::Tangents;
 use super::data::{Data, Take};
@@ -17,17 +18,18 @@ const MEDIAN_SQUARE: f64 = 0.454_936;
 /// Variance of rounding to a code, DN².
 pub const ROUNDING_DN2: f64 = 1.0 / 12.0;
 
+/// Every frame: its recording, and its number there.
+fn frames(data: &Data) -> Vec<(usize, usize)> {
+    let of = |(take, recording): (usize, &Take)| (0..recording.moments.len()).map(move |index| (take, index));
+    data.takes.iter().enumerate().flat_map(of).collect()
+}
+
 /// Variance over signal from half the squared differences of neighbours' residuals in a row: what both share (an effect, as a rule)
 /// drops out. Medians, so that dead pixels and edges say little.
 pub fn measured(data: &Data, fit: &Fit) -> Noise {
     let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
     let (pixels, width) = (data.pixels(), data.geometry().width);
-    let frames: Vec<(usize, usize)> = data
-        .takes
-        .iter()
-        .enumerate()
-        .flat_map(|(take, recording)| (0..recording.moments.len()).map(move |index| (take, index)))
-        .collect();
+    let frames = frames(data);
     let mut samples: Vec<(f64, f64)> = Vec::new();
     for &(take, index) in frames.iter().step_by(frames.len().div_ceil(FRAMES).max(1)) {
         let base = tangents.base(take, index);
@@ -77,7 +79,8 @@ fn line(points: &[(f64, f64)]) -> Noise {
 pub struct Beyond {
     /// It, with what was stated.
     pub noise: Noise,
-    /// Evidence (nats) that some of it is in proportion to the signal, rather than all of it like read and shot noise.
+    /// Evidence (nats) that some of it is in proportion to the signal, rather than all of it like read and shot noise; 0 where that is not
+    /// clear.
     pub in_proportion: f64,
 }
 
@@ -89,9 +92,6 @@ const BINS: usize = 48;
 pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
     let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
     let full_scale_dn = fit.pixels.full_scale_dn;
-    let frames =
-        |(take, recording): (usize, &Take)| (0..recording.moments.len()).map(move |index| (take, index));
-    let frames: Vec<(usize, usize)> = data.takes.iter().enumerate().flat_map(frames).collect();
     // Samples, and sums of their signal and of their residual's square over the variance.
     let add = |mut bins: Vec<[f64; 3]>, &(take, index): &(usize, usize)| {
         let base = tangents.base(take, index);
@@ -108,7 +108,7 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
         bins
     };
     let none = || vec![[0.0; 3]; BINS];
-    let bins = frames.par_iter().fold(none, add).reduce(none, |mut bins, others| {
+    let bins = frames(data).par_iter().fold(none, add).reduce(none, |mut bins, others| {
         bins.iter_mut().flatten().zip(others.into_iter().flatten()).for_each(|(sum, other)| *sum += other);
         bins
     });
@@ -122,14 +122,14 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
     let points: Vec<Point> = points.collect();
     let (like_stated, without) = least(&points, 2);
     let (parts, with) = least(&points, 3);
-    let in_proportion = 0.5 * (without - with);
-    let parts = if in_proportion > CLUSTER_NATS { parts } else { like_stated };
+    let nats = 0.5 * (without - with);
+    let (parts, in_proportion) = if nats > CLUSTER_NATS { (parts, nats) } else { (like_stated, 0.0) };
     let noise = Noise {
         floor: stated.floor + parts[0],
         slope: stated.slope + parts[1],
         square: stated.square + parts[2],
     };
-    Beyond { noise, in_proportion: if in_proportion > CLUSTER_NATS { in_proportion } else { 0.0 } }
+    Beyond { noise, in_proportion }
 }
 
 /// Variance beyond what was stated, DN², at a signal, and the inverse square of what it is known to.

@@ -4,7 +4,7 @@ use std::path::Path;
 use vuris::frames::RawSets;
 use vuris::recording::{Recording, write_recording};
 
-/// A sample of a campaign, by numbers from 0.
+/// A sample of a campaign, by numbers from 0. No test needs all of them.
 #[derive(Clone, Copy)]
 #[allow(dead_code)]
 pub struct Sample {
