@@ -60,7 +60,7 @@ prove: setup build ## formal proofs, their covers, and designs in which each mus
 	$(VURIS) prove --spec vuris
 
 study: build ## how often the diagnosis is right: docs/study.md (ten minutes)
-	$(VURIS) study --nulls 200 --repeats 1 --seed 1 --out docs
+	$(VURIS) study --nulls 200 --repeats 1 --pairs 24 --unknowns 2 --seed 1 --out docs
 
 PROOF := $(or $(CARGO_TARGET_DIR),target)/proof
 

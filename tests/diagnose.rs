@@ -339,9 +339,16 @@ fn recordings_without_camera_and_positions_are_diagnosed() {
     assert!((slope - 1.0 / 12.0).abs() < 0.03, "{noise}");
 }
 
-/// The short form of `make study`: clean campaigns raise no alarm. What is counted as what is tested beside the counting.
+/// The short form of `make study`: clean campaigns raise no alarm, and strong effects that nothing in the registry makes get no name. What is counted
+/// as what is tested beside the counting.
 #[test]
 fn a_short_study_raises_no_alarm() {
-    let (good, text) = vuris(&["study", "--nulls", "3", "--repeats", "0", "--seed", "900"]);
+    let none = ["--repeats", "0", "--pairs", "0"];
+    let (good, text) =
+        vuris(&[&["study", "--nulls", "3", "--unknowns", "1", "--seed", "900"], &none[..]].concat());
     assert!(good && text.contains("**Clean campaigns**: 0 alarms in 3 ("), "{text}");
+    let row = text.lines().find(|line| line.starts_with("| an unknown effect | 30 |")).unwrap_or_default();
+    let counts: Vec<usize> = row.split('|').filter_map(|cell| cell.trim().parse().ok()).collect();
+    // Strength, cases, right, …, wrong.
+    assert!(counts.len() == 8 && counts[1] == 6 && counts[2] >= 5 && counts[7] == 0, "{text}");
 }

@@ -5,6 +5,7 @@
 
 use super::data::Data;
 use super::gram::Whitened;
+use super::waves::{Wave, Waves};
 use super::white::White;
 
 /// Which samples share an error.
@@ -22,6 +23,20 @@ pub enum Level {
     Neighbours,
     /// None.
     Pixel,
+}
+
+impl Level {
+    /// What shares an error, in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Set => "set",
+            Self::Frame => "frame",
+            Self::Row => "row",
+            Self::Column => "column",
+            Self::Neighbours => "few neighbours",
+            Self::Pixel => "pixel",
+        }
+    }
 }
 
 /// All levels.
@@ -74,10 +89,15 @@ pub struct Clusters {
     set: [(f64, f64); MODES.len()],
     /// Offsets of frames, rows and columns.
     white: [White; OFFSETS.len()],
+    /// Offsets of rows and columns.
+    waves: [Waves; LINES.len()],
+    frame_period_s: f64,
 }
 
 /// Levels whose offsets are noise where they are white.
 pub const OFFSETS: [Level; 3] = [Level::Frame, Level::Row, Level::Column];
+/// Levels over which offsets may be a wave.
+const LINES: [Level; 2] = [Level::Row, Level::Column];
 
 impl Clusters {
     /// With the clusters of one more frame; the frames of a set come one after the other.
@@ -131,6 +151,10 @@ impl Clusters {
                     let errors = sums.iter().map(|(score, k)| if *k > 0.0 { score / k.sqrt() } else { 0.0 });
                     white.add(errors.collect(), moment.frame, take.frames, is_first);
                 }
+                for (waves, sums) in self.waves.iter_mut().zip(&sums[1..]) {
+                    waves.add(whitened.take, moment.time_s, sums);
+                }
+                self.frame_period_s = moment.frame_period_s;
             }
             // A pixel alone has noise, whatever it is proportional to.
             let levels = if mode < 2 { 5 } else { 1 };
@@ -165,7 +189,17 @@ impl Clusters {
             sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += other);
         }
         self.white = std::array::from_fn(|level| self.white[level].clone().and(&other.white[level]));
+        let [rows, columns] = self.waves;
+        let [more_rows, more_columns] = other.waves;
+        self.waves = [rows.and(more_rows), columns.and(more_columns)];
+        self.frame_period_s = self.frame_period_s.max(other.frame_period_s);
         self
+    }
+
+    /// The strongest waves over rows and over columns.
+    pub fn waves(&self) -> Vec<(Level, Wave)> {
+        let of = |(waves, level): (&Waves, Level)| Some((level, waves.strongest(self.frame_period_s)?));
+        self.waves.iter().zip(LINES).filter_map(of).collect()
     }
 
     /// Standard deviation by the scores' variance.

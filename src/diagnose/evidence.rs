@@ -45,6 +45,8 @@ pub const VISIBLE: f64 = 1e-6;
 /// At its greatest value a column must change the frames by so many standard deviations of the whole campaign.
 const LEAST_RHO: f64 = 1.0;
 const LEAST_EIGENVALUE: f64 = 1e-4;
+/// Of what columns together had before the projection this much is rounding (sums in single precision).
+const ROUNDING: f64 = 1e-5;
 const LEAST_PRIOR: f64 = 4.0;
 /// By so much evidence (nats) each way is preferred to the next one.
 const FIRST_NATS: f64 = 0.01;
@@ -72,7 +74,13 @@ impl<'a> Evidence<'a> {
         candidates: usize,
     ) -> Self {
         let white = |block: &Block| {
-            let seen = |&&column: &&usize| is_seen(matrix[(column, column)], raw[column], reach(column));
+            // Of several columns none may be rounding alone.
+            let is_more = |&&column: &&usize| {
+                block.columns.len() == 1 || matrix[(column, column)] > ROUNDING * raw[column]
+            };
+            let seen = |column: &&usize| {
+                is_more(column) && is_seen(matrix[(**column, **column)], raw[**column], reach(**column))
+            };
             let columns: Vec<usize> = block.columns.iter().filter(seen).copied().collect();
             if columns.is_empty() {
                 return None;
@@ -82,8 +90,18 @@ impl<'a> Evidence<'a> {
                 matrix[(columns[r], columns[c])] * scale[r] * scale[c]
             });
             let eigen = inner.symmetric_eigen();
-            let kept: Vec<usize> =
-                (0..columns.len()).filter(|&n| eigen.eigenvalues[n] > LEAST_EIGENVALUE).collect();
+            // At most what a direction had before the projection.
+            let before = |n: usize| {
+                let of = |(place, &column): (usize, &usize)| {
+                    (eigen.eigenvectors[(place, n)] * scale[place]).abs() * raw[column].sqrt()
+                };
+                columns.iter().enumerate().map(of).sum::<f64>().powi(2)
+            };
+            let is_kept = |&n: &usize| {
+                let rounding = if columns.len() > 1 { ROUNDING * before(n) } else { 0.0 };
+                eigen.eigenvalues[n] > rounding.max(LEAST_EIGENVALUE)
+            };
+            let kept: Vec<usize> = (0..columns.len()).filter(is_kept).collect();
             let mut basis = DMatrix::zeros(matrix.nrows(), kept.len());
             for (number, &which) in kept.iter().enumerate() {
                 let length = eigen.eigenvalues[which].sqrt().recip();
@@ -179,5 +197,29 @@ impl<'a> Evidence<'a> {
         }
         models.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
         models
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chi squared of a hundred columns of unit information, of whose common direction a projection has left the share `left`, and
+    /// whose score is 1 along it.
+    fn of_direction(left: f64) -> f64 {
+        const COUNT: usize = 100;
+        let common = DVector::from_element(COUNT, (COUNT as f64).sqrt().recip());
+        let matrix = DMatrix::identity(COUNT, COUNT) + (left - 1.0) * &common * common.transpose();
+        let raw = DVector::from_element(COUNT, 1.0);
+        let blocks = [Block { candidate: 0, variant: 0, variants: 1.0, columns: (0..COUNT).collect() }];
+        let evidence = Evidence::new(&matrix, &common, &raw, &|_| f64::INFINITY, &blocks, 1);
+        evidence.score(0).unwrap().0
+    }
+
+    #[test]
+    fn what_rounding_leaves_of_a_direction_says_nothing() {
+        assert!((of_direction(0.01) - 100.0).abs() < 2.0, "{}", of_direction(0.01));
+        // 5e-4 of 100 columns' common direction is what sums in single precision are off by.
+        assert!(of_direction(5e-4) < 1e-6, "{}", of_direction(5e-4));
     }
 }

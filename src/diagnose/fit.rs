@@ -22,7 +22,8 @@ pub struct Fit {
     pub columns: Vec<Column>,
     /// Standard deviations of the fitted parameters.
     pub sigma: Vec<f64>,
-    /// Chi squared, with the sets' common position errors taken out.
+    /// Chi squared, with the sets' common position errors taken out, and what their freedom costs: minus twice the logarithm of the likelihood, but
+    /// for a constant.
     pub chi2: f64,
     /// By how much a further step would lower it: next to nothing where the fit has come to an end.
     pub unreached: f64,

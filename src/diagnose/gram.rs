@@ -246,14 +246,17 @@ impl Gram {
         let jitter_m2 = jitter_m2.unwrap_or_else(|| {
             jitter(&sets.iter().map(|(sums, square)| (sums[residual], *square)).collect::<Vec<_>>())
         });
+        let mut freedom = 0.0;
         for (sums, square) in &sets {
             let share = jitter_m2 / (1.0 + jitter_m2 * square);
             full.ger(-share, sums, sums, 1.0);
+            freedom += (jitter_m2 * square).ln_1p();
         }
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();
         let raw = DVector::from_fn(residual, |column, _| block.full[(column, column)]);
-        Projected { matrix, vector, raw, jitter_m2, chi2: full[(residual, residual)], settled, solved }
+        let chi2 = full[(residual, residual)] + freedom;
+        Projected { matrix, vector, raw, jitter_m2, chi2, settled, solved }
     }
 }
 
@@ -303,7 +306,8 @@ pub struct Projected {
     pub raw: DVector<f64>,
     /// Variance of the encoder's reading, m².
     pub jitter_m2: f64,
-    /// Chi squared after the projection.
+    /// Chi squared after the projection, and what the freedom of the sets' errors costs: minus twice the logarithm of the likelihood, but for a
+    /// constant.
     pub chi2: f64,
     /// Chi squared that the pixels' own numbers take away by a step.
     pub settled: f64,

@@ -136,9 +136,13 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let together: f64 = evidences.iter().sum::<f64>().max(kept);
     // Far from the baseline columns promise more than there is, and of several effects none is sure.
     let is_far = found.baseline.is_far_from(&found.fit);
-    let simpler = found.named.len() > 1
-        && !is_far
-        && baseline.columns.first().is_some_and(|best| best.ln_bayes > together);
+    // Of a part of its columns it is enough against three: so many names can make up what none of them is.
+    let said = |coordinate: &Located| match found.named.len() {
+        0 | 1 => 0.0,
+        2 => coordinate.whole_ln_bayes,
+        _ => coordinate.ln_bayes,
+    };
+    let simpler = !is_far && baseline.columns.iter().any(|coordinate| said(coordinate) > together);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
     if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random.or(excess) {
@@ -157,6 +161,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
             });
         }
     }
+    // What still lives where the mismatch lived most was not explained.
+    let first = |places: &[Place]| places.first().map(|place| place.coordinate);
+    let stays = !data.assumed.camera && first(&places).is_some() && first(&places) == first(&left);
     // A simulation of which nothing is described leaves out several things at once: what explains most of them is worth its name.
     let most_left = if data.assumed.camera { 0.5 } else { 0.1 };
     let verdict = if simpler {
@@ -171,6 +178,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         || named.len() == 1 && remainder > most_left
         || dropped
         || is_far
+        || stays
     {
         named.clear();
         Verdict::Unexplained

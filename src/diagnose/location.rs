@@ -1,12 +1,14 @@
 //! Where a residual lives: every coordinate's evidence, by columns and by errors that samples share.
 
 use super::clusters::{Cluster, Clusters};
+use super::codes::Codes;
 use super::columns::Tangents;
 use super::coordinates::{COORDINATES, View};
 use super::data::Data;
 use super::evidence::{Block, Evidence};
 use super::fit::Fit;
 use super::gram::{Gram, Noise, Projected, Whitened};
+use super::parts::parts;
 use super::profiles::{Profile, Profiles};
 use super::ranges::Ranges;
 
@@ -17,9 +19,11 @@ pub struct Located {
     pub coordinate: &'static str,
     /// What of it stands out, in words.
     pub shape: String,
-    /// Evidence, nats.
+    /// Evidence, nats: that of all its columns, or of a part of them that says more.
     pub ln_bayes: f64,
-    /// Chi squared that it explains, and by how many columns.
+    /// Evidence of all its columns, nats.
+    pub whole_ln_bayes: f64,
+    /// Chi squared that those explain that say most, and how many they are.
     pub chi2: (f64, usize),
 }
 
@@ -38,6 +42,20 @@ pub struct Location {
     pub map: Vec<f64>,
 }
 
+/// What is seen frame by frame.
+type Seen = (Clusters, Profiles, Codes);
+
+fn with_codes(mut codes: Codes, whitened: &Whitened, pedestal_dn: f64) -> Codes {
+    for ((&root, &residual), &signal_dn) in
+        whitened.roots.iter().zip(whitened.residual).zip(&whitened.frame.base)
+    {
+        if root > 0.0 {
+            codes.add(signal_dn + pedestal_dn, root * residual, root * root);
+        }
+    }
+    codes
+}
+
 /// Looks in all coordinates at what `base` leaves.
 pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     let ranges = Ranges::of(data, &base.pixels);
@@ -48,11 +66,12 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let view = View { moment, take, frame, pixels: &base.pixels, ranges: &ranges };
         COORDINATES.iter().map(|coordinate| (coordinate.fill)(&view)).collect()
     };
-    let visit = |(clusters, profiles): (Clusters, Profiles), whitened: &Whitened| {
-        (clusters.with(data, whitened), profiles.with(data, &ranges, base, whitened))
+    let visit = |(clusters, profiles, codes): Seen, whitened: &Whitened| {
+        let codes = with_codes(codes, whitened, base.pixels.pedestal_dn);
+        (clusters.with(data, whitened), profiles.with(data, &ranges, base, whitened), codes)
     };
-    let merge = |a: (Clusters, Profiles), b: (Clusters, Profiles)| (a.0.and(b.0), a.1.and(b.1));
-    let (gram, (clusters, profiles)) =
+    let merge = |a: Seen, b: Seen| (a.0.and(b.0), a.1.and(b.1), a.2.and(b.2));
+    let (gram, (clusters, profiles, codes)) =
         Gram::with_blocks(data, &tangents, noise, &|_| true, &sizes, &fill, &visit, &merge);
     let projected = gram.project_all(base.jitter_m2);
     let mut columns: Vec<Located> = COORDINATES
@@ -60,11 +79,28 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         .zip(projected)
         .zip(&sizes)
         .map(|((coordinate, projected), &size)| {
-            let (ln_bayes, chi2, best) = evidence(projected, base.columns.len(), size);
+            let all: Vec<usize> = (0..size).collect();
+            let blocks = [vec![all], parts(coordinate.name, &ranges, size)].concat();
+            let Said { ln_bayes, whole_ln_bayes, chi2, best } =
+                evidence(projected, base.columns.len(), &blocks);
             let shape = (coordinate.shape)(&ranges, best);
-            Located { coordinate: coordinate.name, shape, ln_bayes, chi2 }
+            Located { coordinate: coordinate.name, shape, ln_bayes, whole_ln_bayes, chi2 }
         })
         .collect();
+    columns.extend(clusters.waves().into_iter().map(|(level, wave)| Located {
+        coordinate: level.name(),
+        shape: format!("a wave of {:.1} {}s, {:+.3} Hz", wave.lines, level.name(), wave.hz),
+        ln_bayes: wave.ln_bayes,
+        whole_ln_bayes: wave.ln_bayes,
+        chi2: wave.chi2,
+    }));
+    columns.extend(codes.strongest().map(|wave| Located {
+        coordinate: "code",
+        shape: format!("with a period of {:.1} DN", wave.period_dn),
+        ln_bayes: wave.ln_bayes,
+        whole_ln_bayes: wave.ln_bayes,
+        chi2: (wave.chi2, 2),
+    }));
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
     Location {
         columns,
@@ -75,24 +111,45 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     }
 }
 
-/// Evidence and explained chi squared of a coordinate's columns together, and which of them alone says most.
-fn evidence(mut projected: Projected, fitted: usize, size: usize) -> (f64, (f64, usize), usize) {
+/// What a coordinate's columns say.
+struct Said {
+    ln_bayes: f64,
+    whole_ln_bayes: f64,
+    chi2: (f64, usize),
+    /// Which column alone says most.
+    best: usize,
+}
+
+/// What columns say that come after the `fitted` ones: those `blocks` of them, of which the first one is the whole, that say most.
+fn evidence(mut projected: Projected, fitted: usize, blocks: &[Vec<usize>]) -> Said {
     projected.give_way(fitted);
-    let block = Block { candidate: 0, variant: 0, variants: 1.0, columns: (fitted..fitted + size).collect() };
-    let blocks = [block];
+    let block = |columns: &Vec<usize>| Block {
+        candidate: 0,
+        variant: 0,
+        variants: blocks.len() as f64,
+        columns: columns.iter().map(|column| fitted + column).collect(),
+    };
+    let of: Vec<Block> = blocks.iter().map(block).collect();
     let evidence = Evidence::new(
         &projected.matrix,
         &projected.vector,
         &projected.raw,
         &|_| f64::INFINITY,
-        &blocks,
+        &of,
         COORDINATES.len(),
     );
+    let ln_bayes: Vec<f64> = (0..of.len()).map(|block| evidence.ln_bayes(&[block])).collect();
+    let strongest = (0..of.len()).max_by(|&a, &b| ln_bayes[a].total_cmp(&ln_bayes[b])).unwrap_or(0);
     let alone = |column: usize| {
         let information = projected.matrix[(column, column)];
         let seen = information > super::evidence::VISIBLE * projected.raw[column] && information > 0.0;
         if seen { projected.vector[column].powi(2) / information } else { 0.0 }
     };
-    let best = (fitted..fitted + size).max_by(|&a, &b| alone(a).total_cmp(&alone(b))).unwrap_or(fitted);
-    (evidence.ln_bayes(&[0]), evidence.score(0).unwrap_or((0.0, 0)), best - fitted)
+    let best = of[strongest].columns.iter().copied().max_by(|&a, &b| alone(a).total_cmp(&alone(b)));
+    Said {
+        ln_bayes: ln_bayes[strongest],
+        whole_ln_bayes: ln_bayes[0],
+        chi2: evidence.score(strongest).unwrap_or((0.0, 0)),
+        best: best.unwrap_or(fitted) - fitted,
+    }
 }

@@ -17,6 +17,8 @@ const CLEAR_NATS: f64 = 8.0;
 const TRUSTED_SHARE: f64 = 0.03;
 /// Where the tangents need not hold, effects whose score is at least this share of the best one's are fitted before one is chosen.
 const LEADING_SHARE: f64 = 0.8;
+/// The same for effects of fewer numbers: what a strong one does its tangent at the baseline need not show.
+const SIMPLER_SHARE: f64 = 0.5;
 const MOST_LEADERS: usize = 5;
 /// The same where the mismatch is greater than the noise: there tangents say little of what a fit will.
 const FAR_SHARE: f64 = 0.25;
@@ -27,6 +29,8 @@ const STRONG_NATS: f64 = 30.0;
 pub const DISBELIEF: f64 = 3.0;
 /// Less evidence than this (nats) asserts nothing.
 pub const THRESHOLD: f64 = 1.0;
+/// The same for an effect beside others: a second name is less trustworthy than the first.
+const FURTHER_THRESHOLD: f64 = 4.0;
 
 /// What one pass says of all candidates.
 #[derive(Debug, Clone, Default)]
@@ -134,29 +138,37 @@ impl Pass {
         scores.map(|score| score.0).fold(0.0, f64::max)
     }
 
-    /// Blocks that may be the best one when they are fitted, if there is any doubt which. None where `best` is a pair, whose strongest
-    /// member is the one that fits best beside the other, unless tangents say little because the mismatch `is_far` above the noise.
-    pub fn leaders(&self, best: &Model, is_far: bool) -> Vec<usize> {
+    /// Blocks that may be the strongest one of `best` when they are fitted, if there is any doubt which, and those that are to be fitted
+    /// with each: the others of `best`, unless tangents say little because the mismatch `is_far` above the noise.
+    pub fn leaders(&self, best: &Model, is_far: bool) -> Option<(Vec<usize>, Vec<usize>)> {
         let score = |block: usize| self.scores[block].map_or(0.0, |(chi2, _)| chi2);
         let single = |a: &usize, b: &usize| self.singles[*b].total_cmp(&self.singles[*a]);
-        let Some(&strongest) = best.blocks.iter().min_by(|a, b| single(a, b)) else { return Vec::new() };
-        if self.singles[strongest] < STRONG_NATS || best.blocks.len() > 1 && !is_far {
-            return Vec::new();
+        let strongest = *best.blocks.iter().min_by(|a, b| single(a, b))?;
+        if self.singles[strongest] < STRONG_NATS {
+            return None;
         }
+        let candidate = |block: usize| self.blocks[block].candidate;
+        let numbers = |block: usize| self.scores[block].map_or(usize::MAX, |(_, degrees)| degrees);
         let (share, most) =
             if is_far { (FAR_SHARE, MOST_FAR_LEADERS) } else { (LEADING_SHARE, MOST_LEADERS) };
-        let mut leaders: Vec<usize> =
-            (0..self.blocks.len()).filter(|&block| score(block) >= share * score(strongest)).collect();
+        let share = |block: usize| match numbers(block) < numbers(strongest) {
+            true => share.min(SIMPLER_SHARE),
+            false => share,
+        };
+        let is_leading = |&block: &usize| score(block) >= share(block) * score(strongest);
+        let mut leaders: Vec<usize> = (0..self.blocks.len()).filter(is_leading).collect();
         leaders.sort_by(single);
         // Two ways of each effect to be there.
         let mut ways = BTreeMap::<usize, usize>::new();
         leaders.retain(|&block| {
-            let ways = ways.entry(self.blocks[block].candidate).or_default();
+            let ways = ways.entry(candidate(block)).or_default();
             *ways += 1;
             !is_far || *ways <= 2
         });
         leaders.truncate(most);
-        if leaders.len() < 2 { Vec::new() } else { leaders }
+        let leads = |&block: &usize| leaders.iter().any(|&leader| candidate(leader) == candidate(block));
+        let others = best.blocks.iter().copied().filter(|block| !is_far && !leads(block)).collect();
+        (leaders.len() > 1).then_some((leaders, others))
     }
 
     /// Of blocks and their fits, to data whose chi squared was `before`: the best one, with its fit, and the effects that come as near as
@@ -208,14 +220,16 @@ impl Pass {
         (0..self.blocks.len()).filter(is_near).map(|other| self.name(other, candidates).to_owned()).collect()
     }
 
-    /// The model to be fitted next, if it explains more than what is `tolerated`; and, where that is only a part of the best one, the whole.
-    pub fn next(&self, tolerated: f64, trust: bool) -> Option<(Model, Model)> {
+    /// The model to be fitted next, `beside` so many effects, if it explains more than what is `tolerated`; and, where that is only a part of the
+    /// best one, the whole.
+    pub fn next(&self, beside: usize, tolerated: f64, trust: bool) -> Option<(Model, Model)> {
+        let threshold = if beside > 0 { FURTHER_THRESHOLD } else { THRESHOLD };
         let explained =
             |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
         let enough = |model: &&Model| {
             let most = model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max);
             let trusted = trust && model.ln_bayes > CLEAR_NATS && most > TRUSTED_SHARE * tolerated;
-            model.ln_bayes > THRESHOLD && (most > tolerated || trusted)
+            model.ln_bayes > threshold && (most > tolerated || trusted)
         };
         let best = self.models.iter().find(enough)?;
         // The simplest of the models within the evidence.

@@ -109,14 +109,7 @@ pub fn coordinate(cluster: &Cluster) -> &'static str {
 
 /// What the errors are, in words.
 pub fn words(cluster: &Cluster) -> String {
-    let common = match cluster.level {
-        Level::Set => "set",
-        Level::Frame => "frame",
-        Level::Row => "row",
-        Level::Column => "column",
-        Level::Neighbours => "few neighbours",
-        Level::Pixel => "pixel",
-    };
+    let common = cluster.level.name();
     let unit = match (MODES[cluster.mode], cluster.level) {
         ("offset", _) => " DN",
         ("gain", _) => "",

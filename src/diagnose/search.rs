@@ -78,7 +78,7 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
         // Far from the baseline forms are not that well known.
         let is_far = baseline.is_far_from(&current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
-        let next = pass.next(share * tolerated(&named), trust && !is_far);
+        let next = pass.next(named.len(), share * tolerated(&named), trust && !is_far);
         first.get_or_insert_with(|| {
             alone = pass.alone(&candidates);
             pass.clone()
@@ -95,9 +95,15 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
             fit(data, Some(&current), pieces, noise, &|_| true)
         };
         let lead = |is_far: bool| {
-            let leaders = pass.leaders(&whole, is_far);
-            let fits = leaders.into_iter().map(|block| (block, with(&[block])));
+            let (leaders, others) = pass.leaders(&whole, is_far)?;
+            let beside = |block: usize| with(&[&[block], &others[..]].concat());
+            let fits = leaders.into_iter().map(|block| (block, beside(block)));
             let (single, fitted, near) = pass.fittest(current.chi2, fits, &candidates, is_far)?;
+            if single.ln_bayes < THRESHOLD {
+                return None;
+            }
+            // Of a pair the strongest member comes first.
+            let fitted = if others.is_empty() { fitted } else { with(&single.blocks) };
             if !is_far {
                 return Some((single, fitted, near));
             }

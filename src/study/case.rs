@@ -8,12 +8,25 @@ use crate::problem::Result;
 use std::path::Path;
 use std::sync::Arc;
 
+/// An effect in a campaign.
+#[derive(Debug, Clone)]
+pub struct Concealed {
+    /// It.
+    pub effect: &'static Effect,
+    /// Which of its numbers is not off.
+    pub number: usize,
+    /// All its numbers.
+    pub values: Vec<f64>,
+}
+
 /// A campaign.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// The effect, which of its numbers is not off, and all its numbers; nothing in a clean campaign.
-    pub effect: Option<(&'static Effect, usize, Vec<f64>)>,
-    /// Its strength, in standard deviations of the whole campaign.
+    /// One effect, or two; nothing in a clean campaign.
+    pub effects: Vec<Concealed>,
+    /// The coordinates where an effect lives that the registry has not; none of one that it has.
+    pub lives: &'static [&'static str],
+    /// Strength of each effect, in standard deviations of the whole campaign.
     pub rho: f64,
     /// Seed of scene, noise and encoder.
     pub seed: u64,
@@ -28,8 +41,10 @@ pub struct Outcome {
     pub named: Vec<&'static str>,
     /// What was said to be possible too.
     pub possible: Vec<String>,
-    /// Error of the number that is not off, in the standard deviations that were stated; where the effect was named.
-    pub error_sigma: Option<f64>,
+    /// The coordinate that leads.
+    pub located: Option<&'static str>,
+    /// Errors of the numbers that are not off, in the standard deviations that were stated; of effects that were named.
+    pub errors_sigma: Vec<f64>,
 }
 
 /// Recordings of a campaign.
@@ -38,12 +53,20 @@ const RECORDINGS: [&str; 6] =
 const FRAME_PERIOD_S: f64 = 0.025;
 
 impl Case {
-    fn data(&self, size: Geometry) -> Result<Data> {
+    /// A campaign without any effect.
+    pub fn clean(seed: u64) -> Self {
+        Self { effects: Vec::new(), lives: &[], rho: 0.0, seed }
+    }
+
+    /// The campaign; with `library` among what a diagnosis knows.
+    fn data(&self, size: Geometry, library: Vec<&'static Effect>) -> Result<Data> {
         let camera = practice_camera(size);
         let sensor = sensor(&camera);
         let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: FRAME_PERIOD_S, seed: self.seed };
         let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
-        let effects = self.effect.iter().map(|(effect, _, values)| Active { effect, values: values.clone() });
+        let active =
+            |concealed: &Concealed| Active { effect: concealed.effect, values: concealed.values.clone() };
+        let effects = self.effects.iter().map(active);
         let chain = chain(&camera, pixels, effects.collect());
         let take = |name: &&str| {
             let recording = number_of(name);
@@ -52,15 +75,20 @@ impl Case {
             recorded(Path::new("study"), name, &plan, &plan.course(name)?, &camera, &simulation, &|| ())
         };
         let recordings = RECORDINGS.iter().map(take).collect::<Result<Vec<_>>>()?;
-        Data::of(&recordings, Vec::new())
+        Data::of(&recordings, library)
     }
 
-    /// What this campaign would show: `(effect, its first number that is seen, a standard deviation of it)`.
+    /// What this campaign would show of the registry's effects and those of `library`: `(effect, its first number that is seen, a standard
+    /// deviation of it)`.
     ///
     /// # Errors
     /// A campaign that cannot be made.
-    pub fn detectable(&self, size: Geometry) -> Result<Vec<(&'static str, usize, f64)>> {
-        let found = diagnose(&self.data(size)?).judgement.found;
+    pub fn detectable(
+        &self,
+        size: Geometry,
+        library: Vec<&'static Effect>,
+    ) -> Result<Vec<(&'static str, usize, f64)>> {
+        let found = diagnose(&self.data(size, library)?).judgement.found;
         let mut units: Vec<(&'static str, usize, f64)> = Vec::new();
         for (name, parameter, five) in found.detectable {
             if !units.iter().any(|unit| unit.0 == name) {
@@ -75,9 +103,9 @@ impl Case {
     /// # Errors
     /// A campaign that cannot be made.
     pub fn run(&self, size: Geometry) -> Result<Outcome> {
-        let answer = diagnose(&self.data(size)?).answer;
-        let error = || {
-            let (effect, number, values) = self.effect.as_ref()?;
+        let answer = diagnose(&self.data(size, Vec::new())?).answer;
+        let error = |concealed: &Concealed| {
+            let Concealed { effect, number, values } = concealed;
             let row = answer.effects.iter().find(|row| row.name == effect.name)?;
             let parameter = row.parameters.iter().find(|row| row.name == effect.parameters[*number].name)?;
             (parameter.sigma > 0.0).then(|| (parameter.value - values[*number]) / parameter.sigma)
@@ -86,7 +114,8 @@ impl Case {
             verdict: answer.verdict,
             named: answer.effects.iter().map(|row| row.name).collect(),
             possible: answer.effects.iter().flat_map(|row| row.also_possible.clone()).collect(),
-            error_sigma: error(),
+            located: answer.located.first().map(|row| row.coordinate),
+            errors_sigma: self.effects.iter().filter_map(error).collect(),
         })
     }
 }

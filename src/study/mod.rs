@@ -1,22 +1,32 @@
-//! How often the diagnosis is right: campaigns without any effect, and with each effect at strengths in units of its detectability.
+//! How often the diagnosis is right: campaigns without any effect, with each effect at strengths in units of its detectability, with two, and
+//! with effects that it does not know.
 //!
 //! The campaigns are made by the simulator that the diagnosis fits: what comes out is how well it decides, not how well its physics is that
 //! of a camera.
 
 mod case;
+mod outside;
 mod page;
 mod summary;
 
-pub use case::{Case, Outcome};
+pub use case::{Case, Concealed, Outcome};
 pub use page::page;
-pub use summary::{Cell, Summary, interval};
+pub use summary::{Cell, Kind, Summary, interval};
 
 use crate::frames::Geometry;
 use crate::physics::{Chance, EFFECTS, Effect, effects};
 use crate::problem::Result;
+use outside::outside;
+use rand::SeedableRng;
+use rand::seq::IndexedRandom;
+use rand_chacha::ChaCha8Rng;
 
 /// Strengths at which effects are tried, in standard deviations of the whole campaign.
 pub const STRENGTHS: [f64; 3] = [6.0, 10.0, 20.0];
+/// Strength of each of two.
+pub const STRENGTH_OF_PAIRS: f64 = 15.0;
+/// Strengths of effects that no diagnosis knows.
+pub const STRENGTHS_OF_UNKNOWNS: [f64; 2] = [12.0, 30.0];
 
 /// What is studied.
 #[derive(Debug, Clone)]
@@ -29,6 +39,10 @@ pub struct Study {
     pub nulls: usize,
     /// Campaigns of each effect and strength.
     pub repeats: usize,
+    /// Campaigns with two effects.
+    pub pairs: usize,
+    /// Campaigns of each effect that the registry has not, and strength.
+    pub unknowns: usize,
 }
 
 impl Study {
@@ -42,22 +56,41 @@ impl Study {
             seed += 1;
             seed
         };
-        let mut cases: Vec<Case> =
-            (0..self.nulls).map(|_| Case { effect: None, rho: 0.0, seed: next() }).collect();
-        if self.repeats == 0 {
+        let mut cases: Vec<Case> = (0..self.nulls).map(|_| Case::clean(next())).collect();
+        if self.repeats + self.pairs + self.unknowns == 0 {
             return Ok(cases);
         }
+        let outside = outside()?;
+        let library = outside.iter().map(|(effect, _)| *effect).collect();
         // What a clean campaign says of the strength that it would show.
-        let units = Case { effect: None, rho: 0.0, seed: self.seed }.detectable(self.size)?;
-        for effect in EFFECTS.iter().filter(|effect| is_tried(effect)) {
-            let Some(unit) = units.iter().find(|unit| unit.0 == effect.name) else { continue };
+        let units = Case::clean(self.seed).detectable(self.size, library)?;
+        // What the campaign shows only beyond an effect's bounds is not tried.
+        let concealed = |effect: &'static Effect, rho: f64| {
+            let &(_, number, unit) = units.iter().find(|unit| unit.0 == effect.name)?;
+            Some(Concealed { effect, number, values: at(effect, number, rho * unit)? })
+        };
+        let effects: Vec<&'static Effect> =
+            EFFECTS.iter().copied().filter(|effect| is_tried(effect)).collect();
+        for &effect in &effects {
             for rho in STRENGTHS {
+                let Some(alone) = concealed(effect, rho) else { continue };
                 for _ in 0..self.repeats {
-                    let values = at(effect, unit.1, rho * unit.2);
-                    // What the campaign shows only beyond the effect's bounds is not tried.
-                    if let Some(values) = values {
-                        cases.push(Case { effect: Some((effect, unit.1, values)), rho, seed: next() });
-                    }
+                    cases.push(Case { effects: vec![alone.clone()], lives: &[], rho, seed: next() });
+                }
+            }
+        }
+        let rho = STRENGTH_OF_PAIRS;
+        let strong: Vec<Concealed> = effects.iter().filter_map(|effect| concealed(effect, rho)).collect();
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        for _ in 0..self.pairs {
+            let pair = strong.sample(&mut rng, 2).cloned().collect();
+            cases.push(Case { effects: pair, lives: &[], rho, seed: next() });
+        }
+        for &(effect, lives) in &outside {
+            for rho in STRENGTHS_OF_UNKNOWNS {
+                let Some(alone) = concealed(effect, rho) else { continue };
+                for _ in 0..self.unknowns {
+                    cases.push(Case { effects: vec![alone.clone()], lives, rho, seed: next() });
                 }
             }
         }

@@ -3,34 +3,54 @@
 use super::case::{Case, Outcome};
 use std::collections::BTreeMap;
 
+/// What is in a campaign that is not clean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// An effect of the registry.
+    Single,
+    /// Two.
+    Pair,
+    /// One that the registry has not.
+    Unknown,
+}
+
 /// Cases of one kind.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Cell {
-    /// The effect alone was named.
+    /// The effects were named, and no other; of an unknown one: none was, and it was located where it lives.
     pub right: usize,
-    /// Another was, and the effect was said to be possible too.
+    /// Others were, and what was said to be possible too completes them.
     pub possible: usize,
+    /// One of two, and no other.
+    pub part: usize,
     /// Nothing was named, and no alarm raised.
     pub silent: usize,
-    /// An alarm, and no name.
+    /// An alarm, and no name; of an unknown effect: located elsewhere.
     pub unexplained: usize,
     /// Another effect was named.
     pub wrong: usize,
 }
 
+impl Cell {
+    /// How many there are.
+    pub fn cases(&self) -> usize {
+        self.right + self.possible + self.part + self.silent + self.unexplained + self.wrong
+    }
+}
+
 /// Everything that a study found.
 #[derive(Debug, Clone, Default)]
 pub struct Summary {
-    /// Clean campaigns, and alarms among them.
-    pub nulls: (usize, usize),
-    /// The alarms: seed, and what was said.
+    /// Clean campaigns.
+    pub nulls: usize,
+    /// Alarms among them: seed, and what was said.
     pub alarms: Vec<(u64, String)>,
-    /// By effect and strength (in tenths of a standard deviation).
-    pub cells: BTreeMap<(&'static str, u32), Cell>,
+    /// By kind, effects and strength (in tenths of a standard deviation).
+    pub cells: BTreeMap<(Kind, String, u32), Cell>,
     /// Numbers whose 95 % interval was stated, those that lie within, and those within three standard deviations.
     pub intervals: (usize, usize, usize),
-    /// What was named in place of what: `(effect, named)`, and how often.
-    pub confused: BTreeMap<(&'static str, String), usize>,
+    /// What was named in place of what: `(effects, named)`, and how often.
+    pub confused: BTreeMap<(String, String), usize>,
 }
 
 /// Half width of the 95 % interval, in standard deviations.
@@ -41,29 +61,28 @@ impl Summary {
     pub fn of<'a>(outcomes: impl IntoIterator<Item = (&'a Case, &'a Outcome)>) -> Self {
         let mut summary = Self::default();
         for (case, outcome) in outcomes {
-            let Some((effect, ..)) = &case.effect else {
-                summary.nulls.0 += 1;
+            let names: Vec<&str> = case.effects.iter().map(|concealed| concealed.effect.name).collect();
+            if names.is_empty() {
+                summary.nulls += 1;
                 if outcome.verdict != "clean" {
-                    summary.nulls.1 += 1;
-                    summary
-                        .alarms
-                        .push((case.seed, format!("{} {}", outcome.verdict, outcome.named.join(" + "))));
+                    let said = format!("{} {}", outcome.verdict, outcome.named.join(" + "));
+                    summary.alarms.push((case.seed, said));
                 }
                 continue;
-            };
-            let name = effect.name;
-            let cell = summary.cells.entry((name, (10.0 * case.rho).round() as u32)).or_default();
-            *match outcome.named[..] {
-                [named] if named == name => &mut cell.right,
-                [] if outcome.verdict == "clean" => &mut cell.silent,
-                [] => &mut cell.unexplained,
-                _ if outcome.possible.iter().any(|possible| possible == name) => &mut cell.possible,
-                _ => &mut cell.wrong,
-            } += 1;
-            if !outcome.named.is_empty() && outcome.named != [name] {
-                *summary.confused.entry((name, outcome.named.join(" + "))).or_default() += 1;
             }
-            if let Some(error) = outcome.error_sigma {
+            let kind = match (names.len(), case.lives) {
+                (1, []) => Kind::Single,
+                (_, []) => Kind::Pair,
+                _ => Kind::Unknown,
+            };
+            let key = (kind, names.join(" + "), (10.0 * case.rho).round() as u32);
+            let count = judged(kind, case, &names, outcome);
+            *count(summary.cells.entry(key).or_default()) += 1;
+            let is_other = outcome.named.iter().any(|named| !names.contains(named));
+            if is_other {
+                *summary.confused.entry((names.join(" + "), outcome.named.join(" + "))).or_default() += 1;
+            }
+            for error in &outcome.errors_sigma {
                 summary.intervals.0 += 1;
                 summary.intervals.1 += usize::from(error.abs() < INTERVAL_SIGMAS);
                 summary.intervals.2 += usize::from(error.abs() < 3.0);
@@ -72,18 +91,43 @@ impl Summary {
         summary
     }
 
-    /// All cells of a strength together.
-    pub fn at(&self, rho: f64) -> Cell {
+    /// All cells of a kind and strength together.
+    pub fn at(&self, of: Kind, rho: f64) -> Cell {
         let tenths = (10.0 * rho).round() as u32;
         let mut total = Cell::default();
-        for cell in self.cells.iter().filter(|((_, strength), _)| *strength == tenths).map(|(_, cell)| cell) {
-            total.right += cell.right;
-            total.possible += cell.possible;
-            total.silent += cell.silent;
-            total.unexplained += cell.unexplained;
-            total.wrong += cell.wrong;
+        for ((kind, _, strength), cell) in &self.cells {
+            if *kind == of && *strength == tenths {
+                total.right += cell.right;
+                total.possible += cell.possible;
+                total.part += cell.part;
+                total.silent += cell.silent;
+                total.unexplained += cell.unexplained;
+                total.wrong += cell.wrong;
+            }
         }
         total
+    }
+}
+
+/// Where a case is counted.
+fn judged(kind: Kind, case: &Case, names: &[&str], outcome: &Outcome) -> fn(&mut Cell) -> &mut usize {
+    let is_true = |named: &&&str| names.contains(*named);
+    let hits = outcome.named.iter().filter(is_true).count();
+    let others = outcome.named.len() - hits;
+    let said = |name: &&&str| outcome.possible.iter().any(|possible| possible == *name);
+    let missed = names.iter().filter(|name| !outcome.named.contains(name));
+    let is_alarm = outcome.verdict != "clean";
+    let lives = outcome.located.is_some_and(|located| case.lives.contains(&located));
+    match (hits, others) {
+        (0, 0) if !is_alarm => |cell| &mut cell.silent,
+        (0, 0) if kind == Kind::Unknown && lives => |cell| &mut cell.right,
+        (0, 0) => |cell| &mut cell.unexplained,
+        (hits, 0) if hits == names.len() => |cell| &mut cell.right,
+        (_, others) if missed.clone().count() == others && missed.clone().all(|name| said(&name)) => {
+            |cell| &mut cell.possible
+        }
+        (_, 0) => |cell| &mut cell.part,
+        _ => |cell| &mut cell.wrong,
     }
 }
 
@@ -101,37 +145,57 @@ pub fn interval(some: usize, all: usize) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Concealed;
     use super::*;
     use crate::physics::effects;
 
     #[test]
     fn outcomes_are_counted_as_what_they_are() {
-        let lag = effects::named("image_lag").unwrap();
-        let case = Case { effect: Some((lag, 0, vec![0.01])), rho: 10.0, seed: 1 };
-        let clean = Case { effect: None, rho: 0.0, seed: 1 };
-        let outcome = |verdict, named: &[&'static str], possible: &[&str], error_sigma| Outcome {
+        let concealed = |name: &str| {
+            let effect = effects::named(name).unwrap();
+            Concealed { effect, number: 0, values: effect.off() }
+        };
+        let case = |names: &[&str], lives: &'static [&'static str]| {
+            let effects = names.iter().map(|name| concealed(name)).collect();
+            Case { effects, lives, rho: 10.0, seed: 1 }
+        };
+        let (lag, clean) = (case(&["image_lag"], &[]), Case::clean(1));
+        let (pair, unknown) = (case(&["image_lag", "frame_gain"], &[]), case(&["lens_scatter"], &["set"]));
+        let outcome = |verdict, named: &[&'static str], possible: &[&str], errors_sigma: &[f64]| Outcome {
             verdict,
             named: named.to_vec(),
             possible: possible.iter().map(|name| (*name).to_owned()).collect(),
-            error_sigma,
+            located: Some("set"),
+            errors_sigma: errors_sigma.to_vec(),
         };
         let outcomes = [
-            (&case, outcome("explained", &["image_lag"], &[], Some(1.0))),
-            (&case, outcome("explained", &["image_lag"], &[], Some(-2.5))),
-            (&case, outcome("explained", &["saturation"], &["image_lag"], None)),
-            (&case, outcome("explained", &["saturation"], &[], None)),
-            (&case, outcome("explained", &["image_lag", "saturation"], &[], Some(0.1))),
-            (&case, outcome("unexplained", &[], &[], None)),
-            (&case, outcome("clean", &[], &[], None)),
-            (&clean, outcome("clean", &[], &[], None)),
-            (&clean, outcome("unexplained", &[], &[], None)),
+            (&lag, outcome("explained", &["image_lag"], &[], &[1.0])),
+            (&lag, outcome("explained", &["image_lag"], &[], &[-2.5])),
+            (&lag, outcome("explained", &["saturation"], &["image_lag"], &[])),
+            (&lag, outcome("explained", &["saturation"], &[], &[])),
+            (&lag, outcome("explained", &["image_lag", "saturation"], &[], &[0.1])),
+            (&lag, outcome("unexplained", &[], &[], &[])),
+            (&lag, outcome("clean", &[], &[], &[])),
+            (&clean, outcome("clean", &[], &[], &[])),
+            (&clean, outcome("unexplained", &[], &[], &[])),
+            (&pair, outcome("explained", &["frame_gain", "image_lag"], &[], &[1.0, 2.0])),
+            (&pair, outcome("explained", &["frame_gain"], &["image_lag"], &[])),
+            (&pair, outcome("explained", &["frame_gain", "saturation"], &["image_lag"], &[])),
+            (&pair, outcome("explained", &["frame_gain", "image_lag", "saturation"], &[], &[])),
+            (&unknown, outcome("unexplained", &[], &[], &[])),
+            (&unknown, Outcome { located: Some("frame"), ..outcome("unexplained", &[], &[], &[]) }),
+            (&unknown, outcome("explained", &["saturation"], &[], &[])),
         ];
         let summary = Summary::of(outcomes.iter().map(|(case, outcome)| (*case, outcome)));
-        assert_eq!(summary.nulls, (2, 1));
-        assert_eq!(summary.at(10.0), Cell { right: 2, possible: 1, silent: 1, unexplained: 1, wrong: 2 });
-        assert_eq!(summary.intervals, (3, 2, 3));
-        assert_eq!(summary.alarms, [(1, "unexplained ".to_owned())]);
-        assert_eq!(summary.confused.get(&("image_lag", "saturation".to_owned())), Some(&2));
+        assert_eq!((summary.nulls, &summary.alarms[..]), (2, &[(1, "unexplained ".to_owned())][..]));
+        let none = Cell::default();
+        let singles = Cell { right: 2, possible: 1, silent: 1, unexplained: 1, wrong: 2, ..none };
+        assert_eq!(summary.at(Kind::Single, 10.0), singles);
+        assert_eq!(summary.at(Kind::Pair, 10.0), Cell { right: 1, possible: 1, part: 1, wrong: 1, ..none });
+        assert_eq!(summary.at(Kind::Unknown, 10.0), Cell { right: 1, unexplained: 1, wrong: 1, ..none });
+        assert_eq!(summary.intervals, (5, 3, 5));
+        let (of, named) = ("image_lag".to_owned(), "saturation".to_owned());
+        assert_eq!(summary.confused.get(&(of, named)), Some(&2));
     }
 
     /// Wilson's interval for 0 of 200 and 10 of 20, as published tables have it.

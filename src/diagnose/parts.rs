@@ -1,0 +1,93 @@
+//! Parts of a coordinate's columns: one way of being off alone may say it by fewer numbers than all.
+
+use super::ranges::Ranges;
+
+/// Parts of the columns of a coordinate, by their numbers.
+type Parts = fn(&Ranges, usize) -> Vec<Vec<usize>>;
+
+/// Parts of those coordinates that have any.
+const PARTS: [(&str, Parts); 9] = [
+    ("phase", |_, size| {
+        // Errors of the phase, of the offset, of the waveform.
+        (0..3).map(|way| (0..size).filter(|column| column % 6 / 2 == way).collect()).collect()
+    }),
+    ("position_m", modes),
+    ("velocity_m_s", modes),
+    ("frame", |ranges, size| {
+        // Long sets have many frames, and few sets.
+        let is_short = |column: &usize| {
+            let number = column % ranges.frame_numbers;
+            ranges
+                .frames
+                .iter()
+                .any(|(frames, first)| (*first..first + frames).contains(&number) && *frames <= SHORT)
+        };
+        let mut parts = modes(ranges, size);
+        let some = (0..size).filter(is_short).count();
+        if some > 0 && some < size {
+            let short = |part: &Vec<usize>| part.iter().copied().filter(is_short).collect();
+            parts.extend(parts.iter().map(short).collect::<Vec<_>>());
+        }
+        parts
+    }),
+    ("time_s", modes),
+    ("row", modes),
+    ("column", modes),
+    ("amplitude", modes),
+    ("set", modes),
+];
+
+/// Frames of a short set.
+const SHORT: usize = 8;
+
+/// Offset, gain and phase.
+fn modes(_: &Ranges, size: usize) -> Vec<Vec<usize>> {
+    let of = size / 3;
+    (0..3).map(|mode| (mode * of..(mode + 1) * of).collect()).collect()
+}
+
+/// Parts of the columns of `coordinate`, which has so many.
+pub fn parts(coordinate: &str, ranges: &Ranges, size: usize) -> Vec<Vec<usize>> {
+    PARTS.iter().find(|(name, _)| *name == coordinate).map_or_else(Vec::new, |(_, of)| of(ranges, size))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::Geometry;
+
+    fn ranges(frames: Vec<(usize, usize)>) -> Ranges {
+        Ranges {
+            geometry: Geometry { width: 2, height: 2 },
+            is_still: false,
+            position_m: (0.0, 1.0),
+            speed_m_s: 1.0,
+            duration_s: vec![1.0; frames.len()],
+            frame_numbers: frames.iter().map(|(frames, _)| frames).sum(),
+            frames,
+            ln_amplitude: (0.0, 1.0),
+            full_scale_dn: 4096.0,
+        }
+    }
+
+    #[test]
+    fn parts_are_columns_of_one_way_each() {
+        let ranges = ranges(vec![(4, 0), (64, 4)]);
+        for (name, size) in [("phase", 36), ("time_s", 48), ("set", 6)] {
+            let mut all = parts(name, &ranges, size).concat();
+            all.sort_unstable();
+            assert_eq!(all, (0..size).collect::<Vec<_>>(), "{name}");
+        }
+        assert_eq!(parts("phase", &ranges, 12)[1], [2, 3, 8, 9]);
+        assert!(parts("neighbours", &ranges, 4).is_empty());
+    }
+
+    #[test]
+    fn frames_of_short_sets_are_parts_besides() {
+        let parts = parts("frame", &ranges(vec![(4, 0), (64, 4)]), 3 * 68);
+        assert_eq!(parts.len(), 6);
+        assert_eq!(parts[3], [0, 1, 2, 3]);
+        assert_eq!(parts[5], [136, 137, 138, 139]);
+        assert_eq!(super::parts("frame", &ranges(vec![(4, 0), (5, 4)]), 27).len(), 3);
+    }
+}

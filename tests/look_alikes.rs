@@ -1,0 +1,97 @@
+//! `vuris diagnose` where one thing is easily taken for another: a strong effect by its tangent, an encoder's error for the encoder's noise, what no
+//! effect makes for one that comes near.
+
+mod diagnosed;
+mod rewritten;
+
+use diagnosed::{names, verdict, vuris};
+use rewritten::{Sample, rewrite};
+use serde_json::Value;
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+const SIZE: &str = "12x10";
+
+fn campaign(folder: &Path, size: &str, recordings: &str, effects: &[&str]) -> PathBuf {
+    let out = folder.join("campaign");
+    let mut arguments = vec!["simulate", "--size", size, "--seed", "31", "--out", out.to_str().unwrap()];
+    arguments.extend(["--recordings", recordings]);
+    effects.iter().for_each(|effect| arguments.extend(["--effect", effect]));
+    let (good, text) = vuris(&arguments);
+    assert!(good, "{text}");
+    out
+}
+
+/// Value and standard deviation of a parameter of the first effect.
+fn parameter(verdict: &Value, name: &str) -> (f64, f64) {
+    let rows = verdict["effects"][0]["parameters"].as_array().unwrap();
+    let row = rows.iter().find(|row| row["name"] == name).unwrap_or_else(|| panic!("no {name}: {verdict:#}"));
+    (row["value"].as_f64().unwrap(), row["sigma"].as_f64().unwrap())
+}
+
+/// `code` with `more`, which need not be whole, rounded up or down as a chance of the sample's own says.
+fn with(sample: Sample, more: f64) -> f64 {
+    let Sample { recording, set, frame, row, column, code } = sample;
+    let places = [recording, set, frame, row, column].map(|place| place as f64);
+    let mixed = places.iter().zip([12.9898, 78.233, 37.719, 4.581, 91.17]).map(|(a, b)| a * b).sum::<f64>();
+    code + (more + (mixed.sin() * 43_758.545_3).rem_euclid(1.0)).floor()
+}
+
+/// Of a quarter of the charge of the frame before, harmonics of the waveform explain more than lag's tangent at no lag.
+#[test]
+fn a_strong_lag_is_no_harmonics() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &["image_lag:share=0.25"]);
+    let verdict = verdict(&campaign);
+    assert_eq!(names(&verdict), ["image_lag"], "{verdict:#}");
+    let (share, sigma) = parameter(&verdict, "share");
+    assert!((share - 0.25).abs() < 4.0 * sigma, "{share} +- {sigma}");
+}
+
+/// Light that sags fast, and then no more, is one droop with its time constant: no droop with other gains of frames.
+#[test]
+fn a_droop_that_bends_is_one_droop() {
+    let folder = tempfile::tempdir().unwrap();
+    let droop = ["illumination_droop:relative=0.03,time_constant_s=0.03"];
+    let verdict = verdict(&campaign(folder.path(), SIZE, "wdft-sweep,wdft-rail,harmonics", &droop));
+    assert_eq!(names(&verdict), ["illumination_droop"], "{verdict:#}");
+    let (time_constant_s, sigma_s) = parameter(&verdict, "time_constant_s");
+    assert!((time_constant_s - 0.03).abs() < 4.0 * sigma_s, "{time_constant_s} +- {sigma_s}");
+}
+
+/// The error of an encoder is found although it could be its noise, whose variance is estimated.
+#[test]
+fn an_encoders_error_is_no_noise_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let effects = ["phase_step_scale:relative=0.004", "encoder_cyclic:cosine_m=0.0009,period_m=0.24"];
+    let verdict = verdict(&campaign(folder.path(), "32x24", "four-sweep,four-rail", &effects));
+    assert_eq!(names(&verdict), ["encoder_cyclic", "phase_step_scale"], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained");
+}
+
+/// Bands of rows of a tenth of the noise, that drift: neither a function of the row nor errors of single rows.
+#[test]
+fn weak_bands_of_rows_are_a_mismatch_in_the_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
+    rewrite(&campaign, |sample| {
+        let time_s = 0.025 * (4 * sample.set + sample.frame) as f64;
+        with(sample, 0.6 * (TAU * (sample.row as f64 / 4.0 + time_s / 2.3)).cos())
+    });
+    let verdict = verdict(&campaign);
+    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    let place = &verdict["located"][0];
+    assert_eq!(place["coordinate"], "row", "{place:#}");
+    assert!(place["shape"].as_str().unwrap().starts_with("a wave of 4.0 rows"), "{place:#}");
+}
+
+/// An offset of the second frame of each set is found although sets of 64 frames could have one of each.
+#[test]
+fn a_pulse_in_one_frame_is_a_mismatch_in_the_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), SIZE, "four-sweep,wdft-sweep,harmonics", &[]);
+    rewrite(&campaign, |sample| with(sample, if sample.frame == 1 { 1.5 } else { 0.0 }));
+    let verdict = verdict(&campaign);
+    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    assert_eq!(verdict["located"][0]["coordinate"], "frame", "{verdict:#}");
+}
