@@ -91,7 +91,6 @@ pub struct Clusters {
     white: [White; OFFSETS.len()],
     /// Offsets of rows and columns.
     waves: [Waves; LINES.len()],
-    frame_period_s: f64,
 }
 
 /// Levels whose offsets are noise where they are white.
@@ -152,9 +151,8 @@ impl Clusters {
                     white.add(errors.collect(), moment.frame, take.frames, is_first);
                 }
                 for (waves, sums) in self.waves.iter_mut().zip(&sums[1..]) {
-                    waves.add(whitened.take, moment.time_s, sums);
+                    waves.add(whitened.take, moment.time_s, moment.frame_period_s, sums);
                 }
-                self.frame_period_s = moment.frame_period_s;
             }
             // A pixel alone has noise, whatever it is proportional to.
             let levels = if mode < 2 { 5 } else { 1 };
@@ -192,13 +190,12 @@ impl Clusters {
         let [rows, columns] = self.waves;
         let [more_rows, more_columns] = other.waves;
         self.waves = [rows.and(more_rows), columns.and(more_columns)];
-        self.frame_period_s = self.frame_period_s.max(other.frame_period_s);
         self
     }
 
     /// The strongest waves over rows and over columns.
     pub fn waves(&self) -> Vec<(Level, Wave)> {
-        let of = |(waves, level): (&Waves, Level)| Some((level, waves.strongest(self.frame_period_s)?));
+        let of = |(waves, level): (&Waves, Level)| Some((level, waves.strongest()?));
         self.waves.iter().zip(LINES).filter_map(of).collect()
     }
 

@@ -28,6 +28,8 @@ pub struct CodeWave {
     pub ln_bayes: f64,
     /// Chi squared that it explains, by two numbers.
     pub chi2: f64,
+    /// Waves that were looked at.
+    pub looked: f64,
 }
 
 impl Codes {
@@ -52,14 +54,32 @@ impl Codes {
         self
     }
 
-    /// The strongest wave, by the periodogram over its mean where that is above what the noise makes: a curve that is no wave raises many.
+    /// Scores without the mean over the codes around: the curve of the response is no wave.
+    fn without_curve(&self) -> impl Iterator<Item = f64> {
+        let mut before = vec![(0.0, 0.0)];
+        before.extend(self.sums.iter().scan((0.0, 0.0), |total, sum| {
+            *total = (total.0 + sum.0, total.1 + sum.1);
+            Some(*total)
+        }));
+        let around = (PERIODS_DN.1 / BIN_DN) as usize;
+        let count = self.sums.len();
+        self.sums.iter().enumerate().map(move |(bin, &(score, information))| {
+            // As many on either side.
+            let reach = around.min(bin).min(count - 1 - bin);
+            let (low, high) = (before[bin - reach], before[bin + reach + 1]);
+            let (scores, all) = (high.0 - low.0, high.1 - low.1);
+            if all > 0.0 { score - information * scores / all } else { score }
+        })
+    }
+
+    /// The strongest wave, by the periodogram over its mean where that is above what the noise makes.
     pub fn strongest(&self) -> Option<CodeWave> {
         let information: f64 = self.sums.iter().map(|sum| sum.1).sum();
         if information <= 0.0 {
             return None;
         }
         let length = (FINENESS * self.sums.len()).next_power_of_two();
-        let mut series: Vec<Complex64> = self.sums.iter().map(|sum| Complex64::from(sum.0)).collect();
+        let mut series: Vec<Complex64> = self.without_curve().map(Complex64::from).collect();
         series.resize(length, Complex64::default());
         FftPlanner::new().plan_fft_forward(length).process(&mut series);
         let period_dn = |at: usize| length as f64 * BIN_DN / at as f64;
@@ -69,8 +89,8 @@ impl Codes {
         let mean = places.iter().map(|&at| power(at)).sum::<f64>() / places.len().max(1) as f64;
         let best = places.iter().copied().max_by(|&a, &b| power(a).total_cmp(&power(b)))?;
         let chi2 = power(best) / (0.5 * mean).max(1.0);
-        let ln_bayes = of_greatest(chi2, 2, places.len() as f64);
-        Some(CodeWave { period_dn: period_dn(best), ln_bayes, chi2 })
+        let looked = places.len() as f64;
+        Some(CodeWave { period_dn: period_dn(best), ln_bayes: of_greatest(chi2, 2, looked), chi2, looked })
     }
 }
 
@@ -99,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_curve_is_no_wave() {
-        let wave = strongest(|code| 1e-8 * (code - 1600.0).powi(2));
+        let wave = strongest(|code| 1e-6 * (code - 1600.0).powi(2));
         assert!(wave.ln_bayes < 4.0, "{wave:?}");
     }
 }

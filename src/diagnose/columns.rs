@@ -59,7 +59,7 @@ pub struct Frame {
 
 /// Step of the numerical tangents, relative to a number's usual size.
 const STEP: f64 = 1e-3;
-/// The same for shapes: a frequency may be multiplied by a long time.
+/// The same for shapes, which may be less than is usual: a frequency may be multiplied by a long time.
 const SHAPE_STEP: f64 = 1e-6;
 const POSITION_STEP_M: f64 = 1e-6;
 
@@ -112,8 +112,11 @@ impl<'a> Tangents<'a> {
                     let mut values = piece.values.clone();
                     // Away from a bound.
                     let towards = if values[column.parameter] >= parameter.bounds.1 { -1.0 } else { 1.0 };
-                    let relative = if parameter.is_shape() { SHAPE_STEP } else { STEP };
-                    let step = towards * relative * parameter.typical;
+                    let step = towards
+                        * match parameter.is_shape() {
+                            true => SHAPE_STEP * parameter.typical.min(values[column.parameter].abs()),
+                            false => STEP * parameter.typical,
+                        };
                     values[column.parameter] += step;
                     (values, step)
                 };

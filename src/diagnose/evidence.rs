@@ -102,6 +102,9 @@ impl<'a> Evidence<'a> {
                 eigen.eigenvalues[n] > rounding.max(LEAST_EIGENVALUE)
             };
             let kept: Vec<usize> = (0..columns.len()).filter(is_kept).collect();
+            if kept.is_empty() {
+                return None;
+            }
             let mut basis = DMatrix::zeros(matrix.nrows(), kept.len());
             for (number, &which) in kept.iter().enumerate() {
                 let length = eigen.eigenvalues[which].sqrt().recip();

@@ -35,6 +35,8 @@ pub struct Place {
     pub ln_bayes: f64,
     /// Chi squared that it explains, and by how many numbers.
     pub chi2: (f64, usize),
+    /// Among how many it is the greatest.
+    pub looked: f64,
     /// The recording that shows it most; of columns, the one with the greatest misfit.
     pub take: usize,
     /// Whether samples share it at random.
@@ -156,6 +158,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
                 shape,
                 ln_bayes,
                 chi2,
+                looked: 1.0,
                 take: end.take,
                 is_random: true,
             });
@@ -247,8 +250,11 @@ fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, Location) {
 fn places(data: &Data, location: &Location) -> Vec<Place> {
     // What noise shares makes more of columns than noise that nothing shares.
     let inflation = random::noise(data, location).map_or(1.0, |noise| noise.inflation);
-    let stands_out =
-        |located: &&Located| deflated(inflation, located.ln_bayes, located.chi2.0) > LOCATED_NATS;
+    let stands_out = |located: &&Located| {
+        // Waves are measured by what noise there is.
+        let inflation = if located.looked > 1.0 { 1.0 } else { inflation };
+        deflated(inflation, located.ln_bayes, located.chi2.0) > LOCATED_NATS
+    };
     let columns = location.columns.iter().filter(stands_out);
     let mut places: Vec<Place> = columns
         .map(|located| Place {
@@ -256,6 +262,7 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
             shape: located.shape.clone(),
             ln_bayes: located.ln_bayes,
             chi2: located.chi2,
+            looked: located.looked,
             take: location.take,
             is_random: false,
         })
@@ -268,6 +275,7 @@ fn places(data: &Data, location: &Location) -> Vec<Place> {
             shape: words(cluster),
             ln_bayes: cluster.ln_bayes,
             chi2: (2.0 * cluster.ln_bayes, 1),
+            looked: 1.0,
             take: cluster.take,
             is_random: true,
         };

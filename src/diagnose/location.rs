@@ -25,6 +25,8 @@ pub struct Located {
     pub whole_ln_bayes: f64,
     /// Chi squared that those explain that say most, and how many they are.
     pub chi2: (f64, usize),
+    /// Of waves, how many were looked at, and these over what the recordings themselves show of the noise; 1 of columns.
+    pub looked: f64,
 }
 
 /// What the coordinates say of a fit.
@@ -84,15 +86,17 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
             let Said { ln_bayes, whole_ln_bayes, chi2, best } =
                 evidence(projected, base.columns.len(), &blocks);
             let shape = (coordinate.shape)(&ranges, best);
-            Located { coordinate: coordinate.name, shape, ln_bayes, whole_ln_bayes, chi2 }
+            Located { coordinate: coordinate.name, shape, ln_bayes, whole_ln_bayes, chi2, looked: 1.0 }
         })
         .collect();
+    let every = data.grid.every as f64;
     columns.extend(clusters.waves().into_iter().map(|(level, wave)| Located {
         coordinate: level.name(),
-        shape: format!("a wave of {:.1} {}s, {:+.3} Hz", wave.lines, level.name(), wave.hz),
+        shape: format!("a wave of {:.1} {}s, {:+.3} Hz", wave.lines * every, level.name(), wave.hz),
         ln_bayes: wave.ln_bayes,
         whole_ln_bayes: wave.ln_bayes,
         chi2: wave.chi2,
+        looked: wave.looked,
     }));
     columns.extend(codes.strongest().map(|wave| Located {
         coordinate: "code",
@@ -100,6 +104,7 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         ln_bayes: wave.ln_bayes,
         whole_ln_bayes: wave.ln_bayes,
         chi2: (wave.chi2, 2),
+        looked: wave.looked,
     }));
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
     Location {

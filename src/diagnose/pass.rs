@@ -163,12 +163,18 @@ impl Pass {
         leaders.retain(|&block| {
             let ways = ways.entry(candidate(block)).or_default();
             *ways += 1;
-            !is_far || *ways <= 2
+            *ways <= 2
         });
         leaders.truncate(most);
         let leads = |&block: &usize| leaders.iter().any(|&leader| candidate(leader) == candidate(block));
         let others = best.blocks.iter().copied().filter(|block| !is_far && !leads(block)).collect();
         (leaders.len() > 1).then_some((leaders, others))
+    }
+
+    /// Evidence of a block by its `fit` to data whose chi squared was `before`, nats.
+    pub fn fitted_ln_bayes(&self, block: usize, before: f64, fit: &Fit) -> f64 {
+        let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);
+        self.singles[block] + 0.5 * (before - fit.chi2 - fit.unreached - score)
     }
 
     /// Of blocks and their fits, to data whose chi squared was `before`: the best one, with its fit, and the effects that come as near as
@@ -181,10 +187,7 @@ impl Pass {
         is_far: bool,
     ) -> Option<(Model, Fit, Vec<String>)> {
         let explained = |fit: &Fit| before - fit.chi2 - fit.unreached;
-        let judged = |(block, fit): (usize, Fit)| {
-            let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);
-            (self.singles[block] + 0.5 * (explained(&fit) - score), block, fit)
-        };
+        let judged = |(block, fit): (usize, Fit)| (self.fitted_ln_bayes(block, before, &fit), block, fit);
         let mut judged: Vec<(f64, usize, Fit)> = fits.map(judged).collect();
         judged.sort_by(|a, b| b.0.total_cmp(&a.0));
         // Far from the baseline no form is exact: of those that explain about as much as the best one, the simplest.

@@ -96,14 +96,21 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
         };
         let lead = |is_far: bool| {
             let (leaders, others) = pass.leaders(&whole, is_far)?;
-            let beside = |block: usize| with(&[&[block], &others[..]].concat());
-            let fits = leaders.into_iter().map(|block| (block, beside(block)));
-            let (single, fitted, near) = pass.fittest(current.chi2, fits, &candidates, is_far)?;
-            if single.ln_bayes < THRESHOLD {
-                return None;
+            let contest = |others: &[usize]| {
+                let beside = |block: usize| with(&[&[block], others].concat());
+                let fits = leaders.iter().map(|&block| (block, beside(block)));
+                pass.fittest(current.chi2, fits, &candidates, is_far)
+            };
+            let (mut single, mut fitted, mut near) = contest(&others)?;
+            if !others.is_empty() && single.ln_bayes < THRESHOLD {
+                // Not even the best one bears the others.
+                (single, fitted, near) = contest(&[])?;
+            } else if !others.is_empty() {
+                // Of a pair the strongest member comes first, with its own evidence.
+                fitted = with(&single.blocks);
+                let ln_bayes = pass.fitted_ln_bayes(single.blocks[0], current.chi2, &fitted);
+                single = Model { ln_bayes, ..single };
             }
-            // Of a pair the strongest member comes first.
-            let fitted = if others.is_empty() { fitted } else { with(&single.blocks) };
             if !is_far {
                 return Some((single, fitted, near));
             }

@@ -278,7 +278,7 @@ fn located(data: &Data, judgement: &Judgement, place: &Place) -> LocatedRow {
         coordinate: place.coordinate,
         recording: data.takes.get(place.take).map_or_else(String::new, |take| take.name.clone()),
         shape: place.shape.clone(),
-        p: tail(chi2, columns),
+        p: (place.looked * tail(chi2, columns)).min(1.0),
         rms_dn: rounded(((chi2 - columns as f64).max(0.0) / samples * variance).sqrt()),
     }
 }

@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// What a frame's rows, or columns, say of an offset of their own: score and information.
@@ -21,6 +22,8 @@ struct Seen {
 #[derive(Debug, Clone, Default)]
 pub struct Waves {
     frames: Vec<Seen>,
+    /// From a frame to the next, where that is shortest, s.
+    shortest_s: Option<f64>,
 }
 
 /// The strongest wave.
@@ -34,6 +37,8 @@ pub struct Wave {
     pub ln_bayes: f64,
     /// Chi squared that it explains, and by how many numbers.
     pub chi2: (f64, usize),
+    /// Waves that were looked at.
+    pub looked: f64,
 }
 
 /// Cycles over all lines that are looked at: from one, in halves, to so many.
@@ -43,6 +48,8 @@ const CYCLE_STEP: f64 = 0.5;
 const SHORTEST: f64 = 2.5;
 /// Places in time between a frame and the next, on which frames are put.
 const PLACES: f64 = 2.0;
+/// Places in time at most.
+const MOST_PLACES: f64 = 65_535.0;
 /// Frequencies are so many times finer than the inverse of the longest recording.
 const FINENESS: usize = 2;
 /// Frames that a recording has at least.
@@ -51,75 +58,91 @@ const LEAST_FRAMES: usize = 32;
 const LOOKED: f64 = 25.0;
 
 impl Waves {
-    /// With one more frame.
-    pub fn add(&mut self, take: usize, time_s: f64, lines: &[(f64, f64)]) {
-        self.frames.push(Seen { take, time_s, lines: lines.to_vec() });
+    /// With one more frame, which the next one follows after `frame_period_s`.
+    pub fn add(&mut self, take: usize, time_s: f64, frame_period_s: f64, lines: &[(f64, f64)]) {
+        // What all lines share is the frame's.
+        let (score, information) =
+            lines.iter().fold((0.0, 0.0), |sum, line| (sum.0 + line.0, sum.1 + line.1));
+        let common = if information > 0.0 { score / information } else { 0.0 };
+        let lines = lines.iter().map(|&(score, information)| (score - common * information, information));
+        self.frames.push(Seen { take, time_s, lines: lines.collect() });
+        if frame_period_s > 0.0 {
+            self.shortest_s = Some(self.shortest_s.map_or(frame_period_s, |other| other.min(frame_period_s)));
+        }
     }
 
     /// Those of both.
     pub fn and(mut self, other: Self) -> Self {
         self.frames.extend(other.frames);
+        self.shortest_s = [self.shortest_s, other.shortest_s].into_iter().flatten().reduce(f64::min);
         self
     }
 
-    /// The strongest wave, where enough was seen to tell, with frames `frame_period_s` apart.
+    /// The strongest wave, where enough was seen to tell.
     ///
-    /// Its power is that of a periodogram with a phase of its own in each recording (Lomb 1976), over the periodogram's mean where that is above
-    /// what the noise makes: errors of rows that are white raise all waves alike.
-    pub fn strongest(&self, frame_period_s: f64) -> Option<Wave> {
+    /// Its power is that of a periodogram with a phase of its own in each recording (Lomb 1976), over the mean of all waves of this length where that
+    /// is above what the noise makes: errors of rows that are white raise them alike.
+    pub fn strongest(&self) -> Option<Wave> {
         let count = self.frames.first()?.lines.len();
-        let takes = self.frames.iter().map(|seen| seen.take + 1).max()?;
-        let of_take = |take: usize| self.frames.iter().filter(move |seen| seen.take == take);
-        let takes: Vec<usize> = (0..takes).filter(|&take| of_take(take).count() >= LEAST_FRAMES).collect();
-        let latest_s = self.frames.iter().map(|seen| seen.time_s).fold(0.0, f64::max);
+        let frame_period_s = self.shortest_s?;
+        let mut takes: BTreeMap<usize, Vec<&Seen>> = BTreeMap::new();
+        self.frames.iter().for_each(|seen| takes.entry(seen.take).or_default().push(seen));
+        takes.retain(|_, seen| seen.len() >= LEAST_FRAMES);
+        let ends_s = |seen: &Vec<&Seen>| {
+            let times = seen.iter().map(|seen| seen.time_s);
+            times.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
+        };
+        let takes: Vec<(f64, Vec<&Seen>)> = takes.into_values().map(|seen| (ends_s(&seen).0, seen)).collect();
+        let longest_s = takes.iter().map(|(start_s, seen)| ends_s(seen).1 - start_s).fold(0.0, f64::max);
         let most = (count as f64 / SHORTEST).min(CYCLES.1);
-        if takes.is_empty() || most < CYCLES.0 || frame_period_s <= 0.0 {
+        if takes.is_empty() || most < CYCLES.0 || !longest_s.is_finite() {
             return None;
         }
-        let place_s = frame_period_s / PLACES;
-        let length = (FINENESS * (latest_s / place_s).ceil() as usize + 1).next_power_of_two();
+        // A recording that is very long shows no fast waves.
+        let place_s = (frame_period_s / PLACES).max(longest_s / MOST_PLACES);
+        let length = (FINENESS * (longest_s / place_s).ceil() as usize + 1).next_power_of_two();
         let fft = FftPlanner::new().plan_fft_forward(length);
         // More than from frame to frame is seen as less.
-        let half = (length as f64 / (2.0 * PLACES)) as usize;
-        let cycles: Vec<f64> = (0..=((most - CYCLES.0) / CYCLE_STEP) as usize)
-            .map(|step| CYCLES.0 + CYCLE_STEP * step as f64)
-            .collect();
-        let power = |&cycles: &f64| {
+        let half = (length as f64 * place_s / (2.0 * frame_period_s)).min(length as f64 / 2.0) as usize;
+        let numbers = 2 * takes.len();
+        let strongest = |cycles: f64| {
             let turns: Vec<Complex64> =
                 (0..count).map(|n| Complex64::cis(-TAU * cycles * n as f64 / count as f64)).collect();
-            let mut power = vec![0.0; 2 * half];
-            for &take in &takes {
+            let mut powers = vec![0.0; 2 * half];
+            for (start_s, seen) in &takes {
                 let mut series = vec![Complex64::default(); length];
                 let mut information = 0.0;
-                for seen in of_take(take) {
+                for Seen { time_s, lines, .. } in seen {
                     let wave: Complex64 =
-                        seen.lines.iter().zip(&turns).map(|((score, _), turn)| turn * score).sum();
-                    series[(seen.time_s / place_s).round().max(0.0) as usize] += wave;
-                    information += seen.lines.iter().map(|line| line.1).sum::<f64>();
+                        lines.iter().zip(&turns).map(|((score, _), turn)| turn * score).sum();
+                    series[((time_s - start_s) / place_s).round() as usize] += wave;
+                    information += lines.iter().map(|line| line.1).sum::<f64>();
                 }
                 if information <= 0.0 {
                     continue;
                 }
                 fft.process(&mut series);
-                for (at, sum) in power.iter_mut().enumerate() {
+                for (at, sum) in powers.iter_mut().enumerate() {
                     *sum += series[(at + length - half) % length].norm_sqr() / (0.5 * information);
                 }
             }
-            power
+            let mean = powers.iter().sum::<f64>() / powers.len().max(1) as f64;
+            let best = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
+            Some((powers[best] / (mean / numbers as f64).max(1.0), cycles, best))
         };
-        let powers: Vec<Vec<f64>> = cycles.par_iter().map(power).collect();
-        let numbers = 2 * takes.len();
-        let cells = (powers.len() * 2 * half) as f64;
-        let mean = powers.iter().flatten().sum::<f64>() / cells;
-        let floor = (mean / numbers as f64).max(1.0);
-        let places = powers.iter().enumerate().flat_map(|(of, p)| (0..p.len()).map(move |at| (of, at)));
-        let (of, at) = places.max_by(|a, b| powers[a.0][a.1].total_cmp(&powers[b.0][b.1]))?;
-        let chi2 = powers[of][at] / floor;
+        let lengths = ((most - CYCLES.0) / CYCLE_STEP) as usize + 1;
+        let all: Vec<_> = (0..lengths)
+            .into_par_iter()
+            .filter_map(|step| strongest(CYCLES.0 + CYCLE_STEP * step as f64))
+            .collect();
+        let (chi2, cycles, at) = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let looked = (lengths * 2 * half) as f64;
         Some(Wave {
-            lines: count as f64 / cycles[of],
+            lines: count as f64 / cycles,
             hz: -(at as f64 - half as f64) / (length as f64 * place_s),
-            ln_bayes: of_greatest(chi2, numbers, cells),
+            ln_bayes: of_greatest(chi2, numbers, looked),
             chi2: (chi2, numbers),
+            looked,
         })
     }
 }
@@ -140,6 +163,18 @@ mod tests {
     const ROWS: usize = 16;
     const FRAME_PERIOD_S: f64 = 0.025;
 
+    #[test]
+    fn long_recordings_and_odd_times_need_no_more_memory() {
+        for times in [[0.0, 1e9], [f64::NAN, 1.0], [0.0, f64::INFINITY], [-1e9, 0.0]] {
+            let mut waves = Waves::default();
+            for frame in 0..LEAST_FRAMES {
+                waves.add(0, times[frame % 2], 1e-9, &[(1.0, 1.0); ROWS]);
+            }
+            let wave = waves.strongest();
+            assert!(wave.is_none_or(|wave| wave.looked < 2e6), "{times:?}: {wave:?}");
+        }
+    }
+
     /// Of 200 sets of four frames with a pause after each, noise of so many standard deviations a row.
     fn strongest(noise: f64, offset: impl Fn(f64, f64) -> f64) -> Wave {
         let mut waves = Waves::default();
@@ -151,9 +186,10 @@ mod tests {
                 .enumerate()
                 .map(|(row, n)| (noise * n + offset(row as f64, time_s), 1.0))
                 .collect();
-            waves.add(0, time_s, &lines);
+            // Since some other time.
+            waves.add(0, time_s - 1e9, FRAME_PERIOD_S, &lines);
         }
-        waves.strongest(FRAME_PERIOD_S).unwrap()
+        waves.strongest().unwrap()
     }
 
     #[test]

@@ -66,9 +66,12 @@ parameter = [{ name = "relative_rad", unit = "rad s/m", bounds = [-3, 3], typica
 /// None, as long as the formulas are.
 pub fn outside() -> Result<Vec<Outside>> {
     let effects = library("src/study/outside.rs", FORMULAS)?;
-    let lives =
-        |effect: &Effect| LIVES.iter().find(|(name, _)| *name == effect.name).map(|(_, lives)| *lives);
-    Ok(effects.into_iter().map(|effect| (effect, lives(effect).unwrap_or_default())).collect())
+    Ok(effects.into_iter().map(|effect| (effect, lives(effect.name))).collect())
+}
+
+/// Where the effect called `name` lives; nowhere, if it is none of these.
+pub fn lives(name: &str) -> &'static [&'static str] {
+    LIVES.iter().find(|(known, _)| *known == name).map_or(&[], |(_, lives)| *lives)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! A study as a page.
 
+use super::outside::lives;
 use super::{Cell, Kind, STRENGTH_OF_PAIRS, STRENGTHS, STRENGTHS_OF_UNKNOWNS, Study, Summary, interval};
 use std::fmt::Write;
 
@@ -75,7 +76,9 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
         strengths.iter().for_each(|_| text += " ---: |");
         text += "\n";
         for name in names {
-            let _ = write!(text, "| {name} |");
+            let lives = lives(name).join(", ");
+            let lives = if lives.is_empty() { lives } else { format!(" ({lives})") };
+            let _ = write!(text, "| {name}{lives} |");
             for rho in *strengths {
                 let tenths = (10.0 * rho).round() as u32;
                 let cell = of.iter().find(|((_, of, at), _)| of == name && *at == tenths);
