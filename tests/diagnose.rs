@@ -3,7 +3,7 @@
 mod diagnosed;
 mod rewritten;
 
-use diagnosed::{names, verdict, vuris};
+use diagnosed::{names, parameter, verdict, vuris};
 use rewritten::{Sample, rewrite};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -17,14 +17,6 @@ fn campaign(folder: &Path, name: &str, effects: &[&str], seed: &str) -> PathBuf 
     let (good, text) = vuris(&arguments);
     assert!(good, "{text}");
     out
-}
-
-/// Value and standard deviation of a parameter.
-fn parameter(verdict: &Value, name: &str) -> (f64, f64) {
-    let effects = verdict["effects"].as_array().unwrap();
-    let mut rows = effects.iter().flat_map(|effect| effect["parameters"].as_array().unwrap());
-    let row = rows.find(|row| row["name"] == name).unwrap_or_else(|| panic!("no {name}: {verdict}"));
-    (row["value"].as_f64().unwrap(), row["sigma"].as_f64().unwrap())
 }
 
 #[test]

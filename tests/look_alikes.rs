@@ -4,9 +4,8 @@
 mod diagnosed;
 mod rewritten;
 
-use diagnosed::{names, verdict, vuris};
+use diagnosed::{names, parameter, verdict, vuris};
 use rewritten::{Sample, rewrite};
-use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -20,13 +19,6 @@ fn campaign(folder: &Path, size: &str, recordings: &str, effects: &[&str]) -> Pa
     let (good, text) = vuris(&arguments);
     assert!(good, "{text}");
     out
-}
-
-/// Value and standard deviation of a parameter of the first effect.
-fn parameter(verdict: &Value, name: &str) -> (f64, f64) {
-    let rows = verdict["effects"][0]["parameters"].as_array().unwrap();
-    let row = rows.iter().find(|row| row["name"] == name).unwrap_or_else(|| panic!("no {name}: {verdict:#}"));
-    (row["value"].as_f64().unwrap(), row["sigma"].as_f64().unwrap())
 }
 
 /// `code` with `more`, which need not be whole, rounded up or down as a chance of the sample's own says.

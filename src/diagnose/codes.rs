@@ -1,6 +1,7 @@
 //! Waves over the converter's codes: errors that come again after so many codes, as those of a bit do, with whatever period.
 
-use super::waves::of_greatest;
+use super::evidence::of_greatest;
+use super::gram::Whitened;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 
@@ -33,8 +34,17 @@ pub struct CodeWave {
 }
 
 impl Codes {
+    /// With one more frame.
+    pub fn with(mut self, whitened: &Whitened, pedestal_dn: f64) -> Self {
+        let samples = whitened.roots.iter().zip(whitened.residual).zip(&whitened.frame.base);
+        for ((&root, &residual), &signal_dn) in samples.filter(|((root, _), _)| **root > 0.0) {
+            self.add(signal_dn + pedestal_dn, root * residual, root * root);
+        }
+        self
+    }
+
     /// With a sample whose code should be `code`.
-    pub fn add(&mut self, code: f64, score: f64, information: f64) {
+    fn add(&mut self, code: f64, score: f64, information: f64) {
         let bin = ((code / BIN_DN).max(0.0) as usize).min(MOST - 1);
         if self.sums.len() <= bin {
             self.sums.resize(bin + 1, (0.0, 0.0));

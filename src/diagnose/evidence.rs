@@ -51,10 +51,21 @@ const LEAST_PRIOR: f64 = 4.0;
 /// By so much evidence (nats) each way is preferred to the next one.
 const FIRST_NATS: f64 = 0.01;
 
+/// Coordinates among which waves are: each has to be believed against the others.
+const LOOKED: f64 = 25.0;
+
 /// Evidence for a common error of `variance` in one cluster whose score and information are these, nats.
 pub fn of_variance(variance: f64, score: f64, information: f64) -> f64 {
     let share = variance * information;
     0.5 * variance * score * score / (1.0 + share) - 0.5 * share.ln_1p()
+}
+
+/// Evidence (nats) of the greatest among so many `cells`, a `chi2` of so many `numbers`: what its chance is worth at most, p by Chernoff's bound,
+/// -1 / (e p ln p) (Sellke, Bayarri, Berger 2001).
+pub fn of_greatest(chi2: f64, numbers: usize, cells: f64) -> f64 {
+    let numbers = numbers as f64;
+    let surprise = 0.5 * chi2 - 0.5 * numbers * (1.0 + (chi2 / numbers).max(1.0).ln()) - cells.ln();
+    if surprise > 1.0 { surprise - 1.0 - surprise.ln() - LOOKED.ln() } else { 0.0 }
 }
 
 /// Whether `information` that is left of `raw` shows a number that reaches up to `reach`.

@@ -140,7 +140,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let is_far = found.baseline.is_far_from(&found.fit);
     // Of a part of its columns it is enough against three: so many names can make up what none of them is.
     let said = |coordinate: &Located| match found.named.len() {
-        0 | 1 => 0.0,
+        0 | 1 => f64::NEG_INFINITY,
         2 => coordinate.whole_ln_bayes,
         _ => coordinate.ln_bayes,
     };

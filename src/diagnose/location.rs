@@ -47,15 +47,11 @@ pub struct Location {
 /// What is seen frame by frame.
 type Seen = (Clusters, Profiles, Codes);
 
-fn with_codes(mut codes: Codes, whitened: &Whitened, pedestal_dn: f64) -> Codes {
-    for ((&root, &residual), &signal_dn) in
-        whitened.roots.iter().zip(whitened.residual).zip(&whitened.frame.base)
-    {
-        if root > 0.0 {
-            codes.add(signal_dn + pedestal_dn, root * residual, root * root);
-        }
+impl Located {
+    /// A wave, the strongest of so many that were `looked` at.
+    fn wave(coordinate: &'static str, shape: String, ln_bayes: f64, chi2: (f64, usize), looked: f64) -> Self {
+        Self { coordinate, shape, ln_bayes, whole_ln_bayes: ln_bayes, chi2, looked }
     }
-    codes
 }
 
 /// Looks in all coordinates at what `base` leaves.
@@ -69,8 +65,11 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         COORDINATES.iter().map(|coordinate| (coordinate.fill)(&view)).collect()
     };
     let visit = |(clusters, profiles, codes): Seen, whitened: &Whitened| {
-        let codes = with_codes(codes, whitened, base.pixels.pedestal_dn);
-        (clusters.with(data, whitened), profiles.with(data, &ranges, base, whitened), codes)
+        (
+            clusters.with(data, whitened),
+            profiles.with(data, &ranges, base, whitened),
+            codes.with(whitened, base.pixels.pedestal_dn),
+        )
     };
     let merge = |a: Seen, b: Seen| (a.0.and(b.0), a.1.and(b.1), a.2.and(b.2));
     let (gram, (clusters, profiles, codes)) =
@@ -90,21 +89,14 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         })
         .collect();
     let every = data.grid.every as f64;
-    columns.extend(clusters.waves().into_iter().map(|(level, wave)| Located {
-        coordinate: level.name(),
-        shape: format!("a wave of {:.1} {}s, {:+.3} Hz", wave.lines * every, level.name(), wave.hz),
-        ln_bayes: wave.ln_bayes,
-        whole_ln_bayes: wave.ln_bayes,
-        chi2: wave.chi2,
-        looked: wave.looked,
+    columns.extend(clusters.waves().into_iter().map(|(level, wave)| {
+        let name = level.name();
+        let shape = format!("a wave of {:.1} {name}s, {:+.3} Hz", wave.lines * every, wave.hz);
+        Located::wave(name, shape, wave.ln_bayes, wave.chi2, wave.looked)
     }));
-    columns.extend(codes.strongest().map(|wave| Located {
-        coordinate: "code",
-        shape: format!("with a period of {:.1} DN", wave.period_dn),
-        ln_bayes: wave.ln_bayes,
-        whole_ln_bayes: wave.ln_bayes,
-        chi2: (wave.chi2, 2),
-        looked: wave.looked,
+    columns.extend(codes.strongest().map(|wave| {
+        let shape = format!("with a period of {:.1} DN", wave.period_dn);
+        Located::wave("code", shape, wave.ln_bayes, (wave.chi2, 2), wave.looked)
     }));
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
     Location {

@@ -1,6 +1,7 @@
 //! Waves over rows, or over columns, that move in time: bands that drift as a supply's ripple meets the row clock. Neither a function of the row
 //! nor errors of single rows say much of them; a wave of the right length and speed does.
 
+use super::evidence::of_greatest;
 use rayon::prelude::*;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -54,8 +55,6 @@ const MOST_PLACES: f64 = 65_535.0;
 const FINENESS: usize = 2;
 /// Frames that a recording has at least.
 const LEAST_FRAMES: usize = 32;
-/// Coordinates among which waves are: each has to be believed against the others.
-const LOOKED: f64 = 25.0;
 
 impl Waves {
     /// With one more frame, which the next one follows after `frame_period_s`.
@@ -145,14 +144,6 @@ impl Waves {
             looked,
         })
     }
-}
-
-/// Evidence (nats) of the greatest among so many `cells`, a `chi2` of so many `numbers`: what its chance is worth at most, p by Chernoff's bound,
-/// -1 / (e p ln p) (Sellke, Bayarri, Berger 2001).
-pub fn of_greatest(chi2: f64, numbers: usize, cells: f64) -> f64 {
-    let numbers = numbers as f64;
-    let surprise = 0.5 * chi2 - 0.5 * numbers * (1.0 + (chi2 / numbers).max(1.0).ln()) - cells.ln();
-    if surprise > 1.0 { surprise - 1.0 - surprise.ln() - LOOKED.ln() } else { 0.0 }
 }
 
 #[cfg(test)]

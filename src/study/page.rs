@@ -1,6 +1,7 @@
 //! A study as a page.
 
 use super::outside::lives;
+use super::summary::tenths;
 use super::{Cell, Kind, STRENGTH_OF_PAIRS, STRENGTHS, STRENGTHS_OF_UNKNOWNS, Study, Summary, interval};
 use std::fmt::Write;
 
@@ -80,8 +81,7 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
             let lives = if lives.is_empty() { lives } else { format!(" ({lives})") };
             let _ = write!(text, "| {name}{lives} |");
             for rho in *strengths {
-                let tenths = (10.0 * rho).round() as u32;
-                let cell = of.iter().find(|((_, of, at), _)| of == name && *at == tenths);
+                let cell = of.iter().find(|((_, of, at), _)| of == name && *at == tenths(*rho));
                 let _ = write!(text, " {} |", cell.map_or_else(String::new, |(_, cell)| counts(cell, " / ")));
             }
             text += "\n";

@@ -75,7 +75,7 @@ impl Summary {
                 (_, []) => Kind::Pair,
                 _ => Kind::Unknown,
             };
-            let key = (kind, names.join(" + "), (10.0 * case.rho).round() as u32);
+            let key = (kind, names.join(" + "), tenths(case.rho));
             let count = judged(kind, case, &names, outcome);
             *count(summary.cells.entry(key).or_default()) += 1;
             let is_other = outcome.named.iter().any(|named| !names.contains(named));
@@ -93,10 +93,9 @@ impl Summary {
 
     /// All cells of a kind and strength together.
     pub fn at(&self, of: Kind, rho: f64) -> Cell {
-        let tenths = (10.0 * rho).round() as u32;
         let mut total = Cell::default();
         for ((kind, _, strength), cell) in &self.cells {
-            if *kind == of && *strength == tenths {
+            if *kind == of && *strength == tenths(rho) {
                 total.right += cell.right;
                 total.possible += cell.possible;
                 total.part += cell.part;
@@ -109,23 +108,25 @@ impl Summary {
     }
 }
 
+/// A strength in tenths of a standard deviation, by which cells are found.
+pub fn tenths(rho: f64) -> u32 {
+    (10.0 * rho).round() as u32
+}
+
 /// Where a case is counted.
 fn judged(kind: Kind, case: &Case, names: &[&str], outcome: &Outcome) -> fn(&mut Cell) -> &mut usize {
-    let is_true = |named: &&&str| names.contains(*named);
-    let hits = outcome.named.iter().filter(is_true).count();
+    let missed: Vec<&str> = names.iter().copied().filter(|name| !outcome.named.contains(name)).collect();
+    let hits = names.len() - missed.len();
     let others = outcome.named.len() - hits;
-    let said = |name: &&&str| outcome.possible.iter().any(|possible| possible == *name);
-    let missed = names.iter().filter(|name| !outcome.named.contains(name));
+    let is_said = |name: &&str| outcome.possible.iter().any(|possible| possible == name);
     let is_alarm = outcome.verdict != "clean";
     let lives = outcome.located.is_some_and(|located| case.lives.contains(&located));
     match (hits, others) {
         (0, 0) if !is_alarm => |cell| &mut cell.silent,
         (0, 0) if kind == Kind::Unknown && lives => |cell| &mut cell.right,
         (0, 0) => |cell| &mut cell.unexplained,
-        (hits, 0) if hits == names.len() => |cell| &mut cell.right,
-        (_, others) if missed.clone().count() == others && missed.clone().all(|name| said(&name)) => {
-            |cell| &mut cell.possible
-        }
+        (_, 0) if missed.is_empty() => |cell| &mut cell.right,
+        (_, others) if missed.len() == others && missed.iter().all(is_said) => |cell| &mut cell.possible,
         (_, 0) => |cell| &mut cell.part,
         _ => |cell| &mut cell.wrong,
     }

@@ -18,6 +18,15 @@ pub fn verdict(campaign: &Path) -> Value {
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
+/// Value and standard deviation of a parameter of an effect that is asserted. Not every test asks for one.
+#[allow(dead_code)]
+pub fn parameter(verdict: &Value, name: &str) -> (f64, f64) {
+    let effects = verdict["effects"].as_array().unwrap();
+    let mut rows = effects.iter().flat_map(|effect| effect["parameters"].as_array().unwrap());
+    let row = rows.find(|row| row["name"] == name).unwrap_or_else(|| panic!("no {name}: {verdict}"));
+    (row["value"].as_f64().unwrap(), row["sigma"].as_f64().unwrap())
+}
+
 /// The effects that are asserted, by their names' order.
 pub fn names(verdict: &Value) -> Vec<String> {
     let effects = verdict["effects"].as_array().unwrap();
