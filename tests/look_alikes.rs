@@ -29,6 +29,11 @@ fn with(sample: Sample, more: f64) -> f64 {
     code + (more + (mixed.sin() * 43_758.545_3).rem_euclid(1.0)).floor()
 }
 
+/// Sets begin eleven frames apart.
+fn time_s(sample: Sample) -> f64 {
+    0.025 * (11 * sample.set + sample.frame) as f64
+}
+
 /// Of a quarter of the charge of the frame before, harmonics of the waveform explain more than lag's tangent at no lag.
 #[test]
 fn a_strong_lag_is_no_harmonics() {
@@ -67,9 +72,7 @@ fn weak_bands_of_rows_are_a_mismatch_in_the_row() {
     let folder = tempfile::tempdir().unwrap();
     let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
     rewrite(&campaign, |sample| {
-        // Sets begin eleven frames apart.
-        let time_s = 0.025 * (11 * sample.set + sample.frame) as f64;
-        with(sample, 0.6 * (TAU * (sample.row as f64 / 4.0 + time_s / 2.3)).cos())
+        with(sample, 0.6 * (TAU * (sample.row as f64 / 4.0 + time_s(sample) / 2.3)).cos())
     });
     let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
@@ -90,5 +93,63 @@ fn a_pulse_in_one_frame_is_a_mismatch_in_the_frame() {
     rewrite(&campaign, |sample| with(sample, if sample.frame == 1 { 1.5 } else { 0.0 }));
     let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    assert_eq!(verdict["located"][0]["coordinate"], "frame", "{verdict:#}");
+}
+
+/// What comes and goes with a frequency of its own in each recording is no lamp.
+#[test]
+fn lines_of_different_frequencies_are_no_flicker() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
+    rewrite(&campaign, |sample| {
+        let frequency_hz = [103.3, 108.9][sample.recording];
+        with(sample, 1.2 * (TAU * frequency_hz * time_s(sample)).cos())
+    });
+    let verdict = verdict(&campaign);
+    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+}
+
+/// A lamp's flicker has one frequency in all recordings, and is said once.
+#[test]
+fn one_flicker_of_all_recordings_has_one_frequency() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
+    rewrite(&campaign, |sample| {
+        let begun = sample.recording as f64;
+        with(sample, 1.2 * (TAU * 103.3 * time_s(sample) + begun).cos())
+    });
+    let verdict = verdict(&campaign);
+    assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
+    let (frequency_hz, sigma_hz) = parameter(&verdict, "frequency_hz");
+    // Frames of 40 Hz show 200 Hz less this, too.
+    let off_hz = (frequency_hz - 103.3).abs().min((frequency_hz - 96.7).abs());
+    assert!(off_hz < 4.0 * sigma_hz, "{frequency_hz} +- {sigma_hz}");
+}
+
+/// A gain that swings with a thermostat, by a fifth of the noise: no function of the time that few numbers say.
+#[test]
+fn a_swing_is_a_mismatch_in_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
+    rewrite(&campaign, |sample| {
+        with(sample, 0.0012 * (sample.code - 64.0) * (TAU * time_s(sample) / 2.9).cos())
+    });
+    let verdict = verdict(&campaign);
+    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    let place = &verdict["located"][0];
+    assert_eq!(place["coordinate"], "time_s", "{place:#}");
+    let shape = place["shape"].as_str().unwrap();
+    let hz = shape.strip_prefix("gain, a swing of ").and_then(|s| s.strip_suffix(" Hz")?.parse::<f64>().ok());
+    assert!(hz.is_some_and(|hz| (hz - 1.0 / 2.9).abs() < 0.01), "{shape}");
+}
+
+/// An offset of one frame of each set, which other gains of the frames would nearly make.
+#[test]
+fn a_weak_pulse_in_one_frame_is_no_other_gain() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), SIZE, "four-sweep,wdft-sweep", &[]);
+    rewrite(&campaign, |sample| with(sample, if sample.frame == 1 { 0.7 } else { 0.0 }));
+    let verdict = verdict(&campaign);
+    assert_eq!(names(&verdict), [""; 0], "{verdict:#}");
     assert_eq!(verdict["located"][0]["coordinate"], "frame", "{verdict:#}");
 }

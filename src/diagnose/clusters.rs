@@ -5,6 +5,7 @@
 
 use super::data::Data;
 use super::gram::Whitened;
+use super::swings::{SWINGING, Swing, Swings};
 use super::waves::{Wave, Waves};
 use super::white::White;
 
@@ -91,6 +92,8 @@ pub struct Clusters {
     white: [White; OFFSETS.len()],
     /// Offsets of rows and columns.
     waves: [Waves; LINES.len()],
+    /// Sets in time.
+    swings: Swings,
 }
 
 /// Levels whose offsets are noise where they are white.
@@ -162,7 +165,13 @@ impl Clusters {
             }
         }
         if (whitened.index + 1).is_multiple_of(take.frames) {
-            for (mode, sum) in std::mem::take(&mut self.set).into_iter().enumerate() {
+            let sums = std::mem::take(&mut self.set);
+            self.swings.add(
+                whitened.take,
+                moment.time_s,
+                std::array::from_fn::<_, SWINGING, _>(|mode| sums[mode]),
+            );
+            for (mode, sum) in sums.into_iter().enumerate() {
                 let informed = &mut self.information[0][mode];
                 add(&mut self.evidence[whitened.take][0][mode], informed, mode, &[sum], true);
             }
@@ -190,6 +199,7 @@ impl Clusters {
         let [rows, columns] = self.waves;
         let [more_rows, more_columns] = other.waves;
         self.waves = [rows.and(more_rows), columns.and(more_columns)];
+        self.swings = self.swings.and(other.swings);
         self
     }
 
@@ -197,6 +207,11 @@ impl Clusters {
     pub fn waves(&self) -> Vec<(Level, Wave)> {
         let of = |(waves, level): (&Waves, Level)| Some((level, waves.strongest()?));
         self.waves.iter().zip(LINES).filter_map(of).collect()
+    }
+
+    /// The strongest swings of sets in time.
+    pub fn swings(&self) -> Vec<Swing> {
+        self.swings.strongest()
     }
 
     /// Standard deviation by the scores' variance.

@@ -68,6 +68,38 @@ pub fn of_greatest(chi2: f64, numbers: usize, cells: f64) -> f64 {
     if surprise > 1.0 { surprise - 1.0 - surprise.ln() - LOOKED.ln() } else { 0.0 }
 }
 
+/// Probability that chi squared of `degrees` is greater than `chi2`, by Wilson and Hilferty (1931) and the normal tail.
+pub fn tail(chi2: f64, degrees: usize) -> f64 {
+    let n = degrees.max(1) as f64;
+    let z = ((chi2 / n).cbrt() - (1.0 - 2.0 / (9.0 * n))) / (2.0 / (9.0 * n)).sqrt();
+    (0.5 * libm::erfc(z / std::f64::consts::SQRT_2)).clamp(0.0, 1.0)
+}
+
+/// Standard deviations by which 95 of 100 draws are above their mean less these.
+const POWER_SIGMAS: f64 = 1.645;
+
+/// Strength, in standard deviations, at which one of so many `numbers` of an effect, of so many `variants` and among so many `candidates`, has evidence
+/// beyond `threshold` (nats) in 95 of 100 campaigns; the others are as noise makes them.
+pub fn powerful_rho(numbers: usize, variants: f64, candidates: usize, threshold: f64) -> f64 {
+    let matrix = DMatrix::identity(numbers, numbers);
+    let raw = DVector::from_element(numbers, 1.0);
+    let blocks = [Block { candidate: 0, variant: 0, variants, columns: (0..numbers).collect() }];
+    let is_enough = |rho: f64| {
+        let vector = DVector::from_fn(numbers, |number, _| if number == 0 { rho } else { 1.0 });
+        let evidence = Evidence::new(&matrix, &vector, &raw, &|_| f64::INFINITY, &blocks, candidates);
+        evidence.ln_bayes(&[0]) > threshold
+    };
+    let (mut low, mut high) = (0.0, MOST_RHO);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        (low, high) = if is_enough(middle) { (low, middle) } else { (middle, high) };
+    }
+    high + POWER_SIGMAS
+}
+/// No effect needs more.
+const MOST_RHO: f64 = 100.0;
+const HALVINGS: usize = 20;
+
 /// Whether `information` that is left of `raw` shows a number that reaches up to `reach`.
 pub fn is_seen(information: f64, raw: f64, reach: f64) -> bool {
     information > VISIBLE * raw && information.sqrt() * reach > LEAST_RHO
@@ -217,6 +249,7 @@ impl<'a> Evidence<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::Draws;
 
     /// Chi squared of a hundred columns of unit information, of whose common direction a projection has left the share `left`, and
     /// whose score is 1 along it.
@@ -228,6 +261,26 @@ mod tests {
         let blocks = [Block { candidate: 0, variant: 0, variants: 1.0, columns: (0..COUNT).collect() }];
         let evidence = Evidence::new(&matrix, &common, &raw, &|_| f64::INFINITY, &blocks, 1);
         evidence.score(0).unwrap().0
+    }
+
+    #[test]
+    fn ninety_five_of_a_hundred_are_seen() {
+        const DRAWS: usize = 400;
+        for (numbers, variants) in [(1, 1.0), (1, 20_000.0), (7, 2.0)] {
+            let rho = powerful_rho(numbers, variants, 30, 1.0);
+            let matrix = DMatrix::identity(numbers, numbers);
+            let raw = DVector::from_element(numbers, 1.0);
+            let blocks = [Block { candidate: 0, variant: 0, variants, columns: (0..numbers).collect() }];
+            let is_seen = |draw: &usize| {
+                let mut vector = DVector::from_vec(Draws::of(5, *draw as u64).normal(numbers));
+                vector[0] += rho;
+                let evidence = Evidence::new(&matrix, &vector, &raw, &|_| f64::INFINITY, &blocks, 30);
+                evidence.ln_bayes(&[0]) > 1.0
+            };
+            let seen = (0..DRAWS).filter(is_seen).count();
+            // 380, and three standard deviations of a binomial number.
+            assert!((367..=393).contains(&seen), "{numbers} {variants}: {seen} of {DRAWS}, rho {rho}");
+        }
     }
 
     #[test]

@@ -4,10 +4,11 @@ use super::clusters::Level;
 use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
+use super::lines::agree;
 use super::location::{Located, Location, locate};
 use super::noise::beyond;
-use super::pass::{DISBELIEF, THRESHOLD};
-use super::pieces::{Piece, tolerance};
+use super::pass::{DISBELIEF, RIVAL_NATS, THRESHOLD};
+use super::pieces::{Piece, is_line, tolerance};
 use super::random::{
     self, ORDERED_SHARE, RandomEffect, coordinate, deflated, errors, inflation, is_noisier, random_effect,
     words,
@@ -23,6 +24,8 @@ const OCCAM_NATS: f64 = 10.0;
 const FREEDOM_NATS: f64 = 25.0;
 /// How often the noise is corrected.
 const NOISE_STEPS: usize = 2;
+/// Effects by which pixels disturb others.
+const OF_OTHER_PIXELS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lens_scatter"];
 
 /// Where a mismatch lives.
 #[derive(Debug, Clone)]
@@ -99,7 +102,16 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     }
     let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };
     let mut places = places(data, &baseline);
-    let left = self::places(data, &end);
+    let mut left = self::places(data, &end);
+    // A line of several sources was found, but is not what has its name.
+    let lines = found.named.iter().filter(|named| !has_one_source(&found.fit, named.name));
+    let lines: Vec<Place> = lines.map(|named| line(&found.fit, named, end.take)).collect();
+    for line in &lines {
+        for places in [&mut places, &mut left] {
+            let at = places.iter().position(|place| place.ln_bayes < line.ln_bayes);
+            places.insert(at.unwrap_or(places.len()), line.clone());
+        }
+    }
 
     // What random errors let appear among the columns is not asserted.
     let inflation = inflation(data, &end);
@@ -109,7 +121,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         let chi2: f64 = together.map(|named| named.score.0).sum();
         // A fit may explain much more than the tangents from which the evidence is.
         let chi2 = chi2.min(2.0 * (named.ln_bayes + FREEDOM_NATS));
-        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD
+        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && has_one_source(&found.fit, named.name)
     };
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
     let explained: f64 = (found.baseline.chi2 - found.fit.chi2).max(0.0);
@@ -129,7 +141,8 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let rest = |place: &Place| place.chi2.0 - place.chi2.1 as f64;
     let rest: f64 = left.iter().filter(is_left).map(rest).fold(0.0, f64::max);
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
-    // One coordinate that says more than several effects together is the simpler answer, whatever makes it.
+    // One coordinate that says about as much as the effects together, or in one of its ways, is the simpler answer, whatever makes it: a name
+    // must say more than that by a nat, and each further one by as much as it must by than a rival.
     let mut evidences: Vec<f64> = found.named.iter().map(|named| named.ln_bayes).collect();
     // Of two that were found together it is that of both.
     evidences.dedup();
@@ -138,13 +151,19 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let together: f64 = evidences.iter().sum::<f64>().max(kept);
     // Far from the baseline columns promise more than there is, and of several effects none is sure.
     let is_far = found.baseline.is_far_from(&found.fit);
-    // Of a part of its columns it is enough against three: so many names can make up what none of them is.
-    let said = |coordinate: &Located| match found.named.len() {
-        0 | 1 => f64::NEG_INFINITY,
-        2 => coordinate.whole_ln_bayes,
-        _ => coordinate.ln_bayes,
+    let of_neighbours = found.named.iter().any(|named| OF_OTHER_PIXELS.contains(&named.name));
+    let flickers = found.named.iter().any(|named| named.name == "ambient_flicker");
+    let outvotes = |coordinate: &Located| {
+        let least = match coordinate.coordinate {
+            // What is said of neighbours is what those effects do, roughly.
+            "neighbours" if of_neighbours => f64::INFINITY,
+            // A flicker swings.
+            "time_s" if flickers && coordinate.looked > 1.0 => together + RIVAL_NATS,
+            _ => together - 1.0 - RIVAL_NATS * (found.named.len() as f64 - 1.0),
+        };
+        coordinate.ln_bayes > least.max(LOCATED_NATS)
     };
-    let simpler = !is_far && baseline.columns.iter().any(|coordinate| said(coordinate) > together);
+    let simpler = !is_far && !found.named.is_empty() && baseline.columns.iter().any(outvotes);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
     if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random.or(excess) {
@@ -172,7 +191,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let verdict = if simpler {
         named.clear();
         Verdict::Unexplained
-    } else if rest == 0.0 || !named.is_empty() && remainder < believed {
+    } else if rest == 0.0 || !named.is_empty() && remainder < believed && !(stays && named.len() > 2) {
         if named.is_empty() { Verdict::Clean } else { Verdict::Explained }
     } else if random.is_some() && named.len() == 1 {
         Verdict::Explained
@@ -218,6 +237,33 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         noise,
         shared_noise,
     }
+}
+
+/// Where a line is that was taken for `named`.
+fn line(fit: &Fit, named: &Named, take: usize) -> Place {
+    let pieces = fit.pieces.iter().filter(|piece| piece.effect.name == named.name);
+    let shapes = pieces.flat_map(|piece| piece.effect.parameters.iter().zip(&piece.values));
+    let hz = shapes.clone().find(|(parameter, _)| parameter.is_shape()).map_or(0.0, |(_, value)| *value);
+    let (ln_bayes, chi2) = (named.ln_bayes, named.score);
+    let shape = format!("offset, a line of {hz:.2} Hz that differs from recording to recording");
+    Place { coordinate: "time_s", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }
+}
+
+/// Whether what the effect called `name` does may come from one source: a line is as strong in all recordings.
+fn has_one_source(fit: &Fit, name: &str) -> bool {
+    let of_name = |(_, piece): &(usize, &Piece)| piece.effect.name == name && is_line(name);
+    let size = |(number, piece): (usize, &Piece)| {
+        let columns = fit.columns.iter().zip(&fit.sigma).filter(|(column, _)| column.piece == number);
+        let strengths: Vec<(f64, f64)> = columns
+            .filter(|(column, _)| !piece.effect.parameters[column.parameter].is_shape())
+            .map(|(column, sigma)| (piece.values[column.parameter], *sigma))
+            .collect();
+        let count = strengths.len().max(1) as f64;
+        let sum = |of: &dyn Fn(&(f64, f64)) -> f64| strengths.iter().map(|s| of(s).powi(2)).sum::<f64>();
+        (sum(&|s| s.0).sqrt(), (sum(&|s| s.1) / count).sqrt())
+    };
+    let sizes = fit.pieces.iter().enumerate().filter(of_name).map(size);
+    agree(&sizes.filter(|(_, sigma)| sigma.is_normal()).collect::<Vec<_>>())
 }
 
 /// The fit of what is `named` alone: the search may have found more than stands.

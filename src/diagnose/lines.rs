@@ -1,6 +1,7 @@
 //! Lines: what is periodic in time, or in the encoder's reading, with a period that nobody knows beforehand.
 
 use super::data::Data;
+use super::evidence::tail;
 use super::gram::Whitened;
 use crate::physics::cos_sin;
 use rayon::prelude::*;
@@ -38,7 +39,7 @@ pub struct SetSeen {
 }
 
 /// A line.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Line {
     /// Cycles a second, or a metre.
     pub frequency: f64,
@@ -46,6 +47,8 @@ pub struct Line {
     pub chi2: f64,
     /// Frequencies that were looked at and could have shown it.
     pub looked: f64,
+    /// Its amplitude in each group, with the standard deviation of that.
+    pub sizes: Vec<(f64, f64)>,
 }
 
 /// Lamps flicker with twice the mains' frequency, and not with all others: Hz.
@@ -54,8 +57,12 @@ pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
 const CYCLES_M: (f64, f64) = (0.6, 250.0);
 /// Frequencies are so many times finer than the inverse of the whole length.
 const FINENESS: f64 = 4.0;
-/// Of a line that is seen at rest, so many cycles over the whole length are a drift too.
+/// Of a line that is seen nearly at rest, so many cycles over the whole length are a drift too.
 const DRIFT_CYCLES: f64 = 3.0;
+/// The same where the line is twice the mains' frequency, which is known beforehand: Hz, and by what share it is off at most.
+const MAINS_DRIFT_CYCLES: f64 = 1.5;
+const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
+const MAINS_OFF: f64 = 2e-3;
 
 impl Series {
     /// With one more frame.
@@ -134,7 +141,7 @@ impl Series {
 /// The strongest line of all groups, each with a phase of its own (Lomb 1976, with the information as weights).
 ///
 /// Not those that go through whole turns within `period`, or nearly.
-fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -> Option<Line> {
+pub fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -> Option<Line> {
     let length = |group: &Vec<(f64, Sum)>| {
         let (first, last) = group
             .iter()
@@ -148,8 +155,11 @@ fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -
     let step = 1.0 / (FINENESS * longest);
     let count = ((high - low) / step).ceil() as usize;
     let is_drift = |number: usize| {
-        let turns = (low + number as f64 * step) * period;
-        period > 0.0 && (turns - turns.round()).abs() < DRIFT_CYCLES / longest * period
+        let frequency = low + number as f64 * step;
+        let is_mains = TWICE_MAINS_HZ.iter().any(|mains| (frequency / mains - 1.0).abs() < MAINS_OFF);
+        let cycles = if is_mains { MAINS_DRIFT_CYCLES } else { DRIFT_CYCLES };
+        let turns = frequency * period;
+        period > 0.0 && (turns - turns.round()).abs() < cycles / longest * period
     };
     let starts: Vec<usize> = (0..count).step_by(TOGETHER).collect();
     let powers = starts.into_par_iter().flat_map_iter(|start| {
@@ -162,7 +172,27 @@ fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -
     });
     let powers: Vec<f64> = powers.collect();
     let best = (0..count).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
-    Some(Line { frequency: low + best as f64 * step, chi2: powers[best], looked: count as f64 })
+    let frequency = low + best as f64 * step;
+    let size = |group: &Vec<(f64, Sum)>| {
+        let mut power = [0.0];
+        add_powers(group, frequency, step, &mut power);
+        let information: f64 = group.iter().map(|(_, (_, information))| information).sum();
+        // Sine and cosine have half of it each.
+        ((2.0 * power[0] / information.max(1e-300)).sqrt(), (2.0 / information.max(1e-300)).sqrt())
+    };
+    let sizes = groups.iter().map(size).collect();
+    Some(Line { frequency, chi2: powers[best], looked: count as f64, sizes })
+}
+
+/// Amplitudes, with their standard deviations, that are less likely than this to be one and the same are not.
+const DISAGREEING: f64 = 1e-3;
+
+/// Whether amplitudes, each with its standard deviation, may be one and the same.
+pub fn agree(sizes: &[(f64, f64)]) -> bool {
+    let weights: f64 = sizes.iter().map(|(_, sigma)| sigma.powi(-2)).sum();
+    let mean = sizes.iter().map(|(size, sigma)| size * sigma.powi(-2)).sum::<f64>() / weights;
+    let chi2 = sizes.iter().map(|(size, sigma)| ((size - mean) / sigma).powi(2)).sum();
+    sizes.len() < 2 || tail(chi2, sizes.len() - 1) > DISAGREEING
 }
 
 /// Neighbouring frequencies that are looked at together: each sample's phase is turned from one to the next.

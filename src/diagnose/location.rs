@@ -94,6 +94,10 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let shape = format!("a wave of {:.1} {name}s, {:+.3} Hz", wave.lines * every, wave.hz);
         Located::wave(name, shape, wave.ln_bayes, wave.chi2, wave.looked)
     }));
+    columns.extend(clusters.swings().into_iter().map(|swing| {
+        let shape = format!("{}, a swing of {:.3} Hz", swing.mode, swing.hz);
+        Located::wave("time_s", shape, swing.ln_bayes, swing.chi2, swing.looked)
+    }));
     columns.extend(codes.strongest().map(|wave| {
         let shape = format!("with a period of {:.1} DN", wave.period_dn);
         Located::wave("code", shape, wave.ln_bayes, (wave.chi2, 2), wave.looked)

@@ -28,6 +28,16 @@ const PARTS: [(&str, Parts); 9] = [
             let short = |part: &Vec<usize>| part.iter().copied().filter(is_short).collect();
             parts.extend(parts.iter().map(short).collect::<Vec<_>>());
         }
+        // A pulse into the read-out is the offset of one frame, in sets of whatever length.
+        let longest = ranges.frames.iter().map(|(frames, _)| *frames).filter(|frames| *frames <= SHORT).max();
+        parts.extend((0..longest.unwrap_or(0)).map(|frame| {
+            let of_it = ranges.frames.iter().filter(|(frames, _)| frame < *frames);
+            let mut numbers: Vec<usize> = of_it.map(|(_, first)| first + frame).collect();
+            // Recordings of as many frames share them.
+            numbers.sort_unstable();
+            numbers.dedup();
+            numbers
+        }));
         parts
     }),
     ("time_s", modes),
@@ -63,7 +73,7 @@ mod tests {
             position_m: (0.0, 1.0),
             speed_m_s: 1.0,
             duration_s: vec![1.0; frames.len()],
-            frame_numbers: frames.iter().map(|(frames, _)| frames).sum(),
+            frame_numbers: frames.iter().map(|(frames, first)| first + frames).max().unwrap_or(0),
             frames,
             ln_amplitude: (0.0, 1.0),
             full_scale_dn: 4096.0,
@@ -85,9 +95,13 @@ mod tests {
     #[test]
     fn frames_of_short_sets_are_parts_besides() {
         let parts = parts("frame", &ranges(vec![(4, 0), (64, 4)]), 3 * 68);
-        assert_eq!(parts.len(), 6);
+        // All and the short ones in three ways, and four frames alone.
+        assert_eq!(parts.len(), 6 + 4);
         assert_eq!(parts[3], [0, 1, 2, 3]);
         assert_eq!(parts[5], [136, 137, 138, 139]);
-        assert_eq!(super::parts("frame", &ranges(vec![(4, 0), (5, 4)]), 27).len(), 3);
+        assert_eq!(parts[7], [1, 5]);
+        let alike = super::parts("frame", &ranges(vec![(4, 0), (5, 4), (5, 4)]), 27);
+        assert_eq!(alike.len(), 3 + 5);
+        assert_eq!((&alike[3][..], &alike[7][..]), (&[0, 4][..], &[8][..]));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::columns::Tangents;
 use super::data::Data;
-use super::evidence::{Block, Evidence, Model, is_seen};
+use super::evidence::{Block, Evidence, Model, is_seen, powerful_rho};
 use super::fit::Fit;
 use super::gram::{Gram, Noise};
 use super::pieces::{Candidate, Piece, tolerance};
@@ -10,7 +10,7 @@ use super::simpler::Simpler;
 use std::collections::BTreeMap;
 
 /// A rival within so many nats is possible too.
-const RIVAL_NATS: f64 = 3.0;
+pub const RIVAL_NATS: f64 = 3.0;
 /// Evidence (nats) that names an effect which explains less than the forms of others may leave.
 const CLEAR_NATS: f64 = 8.0;
 /// It explains at least this share of that.
@@ -32,6 +32,19 @@ pub const THRESHOLD: f64 = 1.0;
 /// The same for an effect beside others: a second name is less trustworthy than the first.
 const FURTHER_THRESHOLD: f64 = 4.0;
 
+/// What the recordings would show of an effect, in the way in which it shows best.
+#[derive(Debug, Clone, Copy)]
+pub struct Detectable {
+    /// The effect.
+    pub name: &'static str,
+    /// Its parameter.
+    pub parameter: usize,
+    /// Standard deviation of that, by the noise alone.
+    pub sigma: f64,
+    /// Strength at which the effect is found in 95 of 100 campaigns like this one.
+    pub value: f64,
+}
+
 /// What one pass says of all candidates.
 #[derive(Debug, Clone, Default)]
 pub struct Pass {
@@ -43,8 +56,8 @@ pub struct Pass {
     pub scores: Vec<Option<(f64, usize)>>,
     /// Candidates whose every column is absorbed.
     pub invisible: Vec<&'static str>,
-    /// Smallest strengths that would be seen.
-    pub detectable: Vec<(&'static str, usize, f64)>,
+    /// Smallest strengths that would be seen in 95 of 100 recordings alike.
+    pub detectable: Vec<Detectable>,
     /// Evidence of each block alone, nats.
     singles: Vec<f64>,
     /// What simpler methods name.
@@ -101,15 +114,20 @@ impl Pass {
         };
         let invisible =
             (0..candidates.len()).filter(unseen).map(|number| candidates[number].effect.name).collect();
-        let mut detectable: Vec<(&'static str, usize, f64)> = Vec::new();
-        for (column, &(number, parameter)) in parameters.iter().enumerate().filter(|(_, p)| p.0 != usize::MAX)
-        {
-            let information = projected.matrix[(column, column)];
-            if is_seen(information, projected.raw[column], reach(column)) {
-                let (name, value) = (candidates[number].effect.name, 5.0 / information.sqrt());
-                match detectable.iter_mut().find(|row| row.0 == name && row.1 == parameter) {
-                    Some(row) => row.2 = row.2.min(value),
-                    None => detectable.push((name, parameter, value)),
+        let mut detectable: Vec<Detectable> = Vec::new();
+        for block in &blocks {
+            let rho = powerful_rho(block.columns.len(), block.variants, candidates.len(), THRESHOLD);
+            for &column in &block.columns {
+                let (number, parameter) = parameters[column];
+                let information = projected.matrix[(column, column)];
+                if !is_seen(information, projected.raw[column], reach(column)) {
+                    continue;
+                }
+                let (name, sigma) = (candidates[number].effect.name, information.sqrt().recip());
+                let value = rho * sigma;
+                match detectable.iter_mut().find(|row| row.name == name && row.parameter == parameter) {
+                    Some(row) => (row.sigma, row.value) = (row.sigma.min(sigma), row.value.min(value)),
+                    None => detectable.push(Detectable { name, parameter, sigma, value }),
                 }
             }
         }
@@ -200,15 +218,18 @@ impl Pass {
         let believed = (0..judged.len()).filter(|place| is_far && is_believed(place));
         let simplest = believed.min_by_key(|&place| judged[place].2.columns.len());
         let (ln_bayes, block, fit) = judged.remove(simplest.unwrap_or(0));
-        // What its form may leave does not tell it from others either.
-        let form = 0.5 * tolerance(self.name(block, candidates)) * (before - fit.chi2);
-        let least = ln_bayes - form.max(RIVAL_NATS);
-        let near = judged.iter().filter(|other| other.0 > least).map(|other| self.name(other.1, candidates));
-        let near = near.map(str::to_owned).collect();
+        // What its form may leave does not tell it from others either, nor what theirs may.
+        let own = tolerance(self.name(block, candidates));
+        let is_near = |(nats, other, _): &&(f64, usize, Fit)| {
+            let form = own.max(tolerance(self.name(*other, candidates)));
+            *nats > ln_bayes - (0.5 * form * (before - fit.chi2)).max(RIVAL_NATS)
+        };
+        let near =
+            judged.iter().filter(is_near).map(|other| self.name(other.1, candidates).to_owned()).collect();
         Some((Model { blocks: vec![block], ln_bayes }, fit, near))
     }
 
-    /// Of a clear single effect: others that explain as much by no more numbers, but for what its form may leave.
+    /// Of a clear single effect: others that explain as much by no more numbers, but for what its form or theirs may leave.
     pub fn near(&self, best: &Model, candidates: &[Candidate]) -> Vec<String> {
         let [block] = best.blocks[..] else { return Vec::new() };
         if self.singles[block] < STRONG_NATS {
@@ -216,9 +237,10 @@ impl Pass {
         }
         let score = |block: usize| self.scores[block].unwrap_or((0.0, usize::MAX));
         let name = self.name(block, candidates);
-        let least = (1.0 - tolerance(name)) * score(block).0;
+        let least = |rival: &str| (1.0 - tolerance(name).max(tolerance(rival))) * score(block).0;
         let is_near = |&other: &usize| {
-            self.name(other, candidates) != name && score(other).0 > least && score(other).1 <= score(block).1
+            let rival = self.name(other, candidates);
+            rival != name && score(other).0 > least(rival) && score(other).1 <= score(block).1
         };
         (0..self.blocks.len()).filter(is_near).map(|other| self.name(other, candidates).to_owned()).collect()
     }

@@ -211,6 +211,16 @@ fn pieces(
         .collect()
 }
 
+/// Whether the numbers `parameter` of all pieces of `effect` are one: the period of a line, which whatever makes it has in all recordings.
+pub fn is_common(effect: &Effect, parameter: usize) -> bool {
+    is_line(effect.name) && effect.parameters[parameter].is_shape()
+}
+
+/// Whether the effect called `name` is a line in time, or in the encoder's reading.
+pub fn is_line(name: &str) -> bool {
+    LINES.iter().any(|(known, _)| *known == name)
+}
+
 /// The effects of `pieces` that act in recording `take`.
 pub fn active(pieces: &[Piece], take: usize) -> Vec<Active> {
     let here = pieces.iter().filter(|piece| piece.takes.contains(&take));

@@ -4,12 +4,14 @@ use super::data::Data;
 use super::evidence::Model;
 use super::fit::{Fit, fit};
 use super::gram::Noise;
-use super::pass::{Pass, THRESHOLD};
+use super::pass::{Detectable, Pass, THRESHOLD};
 use super::pieces::{Piece, candidates, tolerance};
 use super::simpler::Simpler;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
+/// Beside so many, what the forms of these may leave is no further one.
+const MOST_TRUSTED: usize = 2;
 /// Without a camera's description much is left out at once: so much of what their forms may leave keeps further effects out.
 const UNDESCRIBED: f64 = 0.1;
 /// A fit keeps at least so much of what the tangents promise.
@@ -43,8 +45,8 @@ pub struct Found {
     pub named: Vec<Named>,
     /// Candidates whose every column is absorbed by the pixels' own numbers.
     pub invisible: Vec<&'static str>,
-    /// Smallest strength of each effect's parameters that would be seen at 5 standard deviations: `(effect, parameter, value)`.
-    pub detectable: Vec<(&'static str, usize, f64)>,
+    /// Smallest strengths that would be found.
+    pub detectable: Vec<Detectable>,
     /// Score statistic of each candidate alone at the baseline, its degrees of freedom, evidence: for `ruled_out`.
     pub alone: Vec<(&'static str, f64, usize, f64)>,
     /// What simpler methods name at the baseline.
@@ -78,7 +80,8 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
         // Far from the baseline forms are not that well known.
         let is_far = baseline.is_far_from(&current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
-        let next = pass.next(named.len(), share * tolerated(&named), trust && !is_far);
+        let next =
+            pass.next(named.len(), share * tolerated(&named), trust && !is_far && named.len() < MOST_TRUSTED);
         first.get_or_insert_with(|| {
             alone = pass.alone(&candidates);
             pass.clone()

@@ -2,13 +2,14 @@
 
 use super::alias::alias_odds;
 use super::data::Data;
+use super::evidence::tail;
 use super::fit::unfitted;
 use super::gram::Noise;
 use super::held_out::{HeldOut, held_out};
 use super::judge::{Judgement, Place, Verdict, judge};
 use super::next::next;
 use super::noise::measured;
-use super::pieces::{OF_NEIGHBOURS, Piece};
+use super::pieces::{OF_NEIGHBOURS, Piece, is_common};
 use super::search::Named;
 use super::settle::{outlying, with_mask};
 use super::stated_noise;
@@ -198,9 +199,10 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     let nats = named.iter().map(|named| named.ln_bayes).fold(nats, f64::max);
     let is_clean = *verdict == Verdict::Clean;
     let seen = |place: &Place| located(data, judgement, place);
-    let smallest = found.detectable.iter().filter_map(|&(name, parameter, value)| {
-        let parameter = data.effect(name)?.parameters.get(parameter)?;
-        Some(Smallest { name, parameter: parameter.name, value: rounded(value), unit: parameter.unit })
+    let smallest = found.detectable.iter().filter_map(|row| {
+        let parameter = data.effect(row.name)?.parameters.get(row.parameter)?;
+        let value = rounded(row.value);
+        Some(Smallest { name: row.name, parameter: parameter.name, value, unit: parameter.unit })
     });
     Answer {
         format: "vuris-verdict/1",
@@ -283,13 +285,6 @@ fn located(data: &Data, judgement: &Judgement, place: &Place) -> LocatedRow {
     }
 }
 
-/// Probability that chi squared of `degrees` is greater than `chi2`, by Wilson and Hilferty (1931) and the normal tail.
-fn tail(chi2: f64, degrees: usize) -> f64 {
-    let n = degrees.max(1) as f64;
-    let z = ((chi2 / n).cbrt() - (1.0 - 2.0 / (9.0 * n))) / (2.0 / (9.0 * n)).sqrt();
-    (0.5 * libm::erfc(z / std::f64::consts::SQRT_2)).clamp(0.0, 1.0)
-}
-
 fn rounded(value: f64) -> f64 {
     format!("{value:.4e}").parse().unwrap_or(value)
 }
@@ -335,7 +330,13 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRo
         let takes: Vec<&str> = piece.takes.iter().map(|&take| data.takes[take].name.as_str()).collect();
         let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
         for (parameter, known) in piece.effect.parameters.iter().enumerate() {
-            let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
+            let column = fit.columns.iter().position(|c| c.is_of(&fit.pieces, number, parameter));
+            // What all recordings have in common is said once.
+            let is_said = column.is_some_and(|column| fit.columns[column].piece != number);
+            if is_said {
+                continue;
+            }
+            let suffix = if is_common(piece.effect, parameter) { "" } else { &suffix[..] };
             let sigma = column.map_or(0.0, |column| fit.sigma[column]);
             if column.is_none() && !known.is_shape() {
                 continue;

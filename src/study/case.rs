@@ -90,9 +90,9 @@ impl Case {
     ) -> Result<Vec<(&'static str, usize, f64)>> {
         let found = diagnose(&self.data(size, library)?).judgement.found;
         let mut units: Vec<(&'static str, usize, f64)> = Vec::new();
-        for (name, parameter, five) in found.detectable {
-            if !units.iter().any(|unit| unit.0 == name) {
-                units.push((name, parameter, five / 5.0));
+        for row in found.detectable {
+            if !units.iter().any(|unit| unit.0 == row.name) {
+                units.push((row.name, row.parameter, row.sigma));
             }
         }
         Ok(units)
