@@ -107,23 +107,20 @@ fn lines_of_different_frequencies_are_no_flicker() {
     });
     let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    assert_eq!(verdict["located"][0]["coordinate"], "time_s", "{verdict:#}");
 }
 
-/// A lamp's flicker has one frequency in all recordings, and is said once.
+/// The mains wander, by less than a lamp's light is known: 0.05 % from one recording to the next.
 #[test]
-fn one_flicker_of_all_recordings_has_one_frequency() {
+fn a_lamp_is_one_source_although_the_mains_wander() {
     let folder = tempfile::tempdir().unwrap();
     let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
     rewrite(&campaign, |sample| {
-        let begun = sample.recording as f64;
-        with(sample, 1.2 * (TAU * 103.3 * time_s(sample) + begun).cos())
+        let frequency_hz = [103.3, 103.35][sample.recording];
+        with(sample, 1.2 * (TAU * frequency_hz * time_s(sample) + sample.recording as f64).cos())
     });
     let verdict = verdict(&campaign);
     assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
-    let (frequency_hz, sigma_hz) = parameter(&verdict, "frequency_hz");
-    // Frames of 40 Hz show 200 Hz less this, too.
-    let off_hz = (frequency_hz - 103.3).abs().min((frequency_hz - 96.7).abs());
-    assert!(off_hz < 4.0 * sigma_hz, "{frequency_hz} +- {sigma_hz}");
 }
 
 /// A gain that swings with a thermostat, by a fifth of the noise: no function of the time that few numbers say.

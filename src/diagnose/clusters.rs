@@ -5,7 +5,7 @@
 
 use super::data::Data;
 use super::gram::Whitened;
-use super::swings::{SWINGING, Swing, Swings};
+use super::swings::{Seen, Swing, Swings};
 use super::waves::{Wave, Waves};
 use super::white::White;
 
@@ -166,11 +166,11 @@ impl Clusters {
         }
         if (whitened.index + 1).is_multiple_of(take.frames) {
             let sums = std::mem::take(&mut self.set);
-            self.swings.add(
-                whitened.take,
-                moment.time_s,
-                std::array::from_fn::<_, SWINGING, _>(|mode| sums[mode]),
-            );
+            // Without its light the camera has neither gain nor phase.
+            let swinging =
+                std::array::from_fn(|mode| if mode == 0 || moment.lit { sums[mode] } else { (0.0, 0.0) });
+            let at = [moment.offset_rad, moment.commanded_m()];
+            self.swings.add(Seen { take: whitened.take, time_s: moment.time_s, at, modes: swinging });
             for (mode, sum) in sums.into_iter().enumerate() {
                 let informed = &mut self.information[0][mode];
                 add(&mut self.evidence[whitened.take][0][mode], informed, mode, &[sum], true);

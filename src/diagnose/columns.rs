@@ -1,7 +1,7 @@
 //! Tangents of the forward model: what each fitted number changes in every sample, by the model itself.
 
 use super::data::Data;
-use super::pieces::{Piece, active, is_common};
+use super::pieces::{Piece, active};
 use crate::bench::chain;
 use crate::physics::{Active, Chain, Exposure, Memory, Moment, PerPixel, Pixels, Waveform};
 use std::sync::Arc;
@@ -12,23 +12,10 @@ pub const OWN: usize = 4;
 /// A column: one fitted number.
 #[derive(Debug, Clone)]
 pub struct Column {
-    /// The piece, among those that were given: the first one, where all of the same effect have the number in common.
+    /// The piece, among those that were given.
     pub piece: usize,
     /// Its parameter.
     pub parameter: usize,
-}
-
-impl Column {
-    /// Whether it is the number `parameter` of piece `number`; `fitted` are the pieces that come first.
-    pub fn is_of(&self, fitted: &[Piece], number: usize, parameter: usize) -> bool {
-        let is_common = || match (fitted.get(self.piece), fitted.get(number)) {
-            (Some(own), Some(other)) => {
-                own.effect.name == other.effect.name && is_common(own.effect, parameter)
-            }
-            _ => false,
-        };
-        self.parameter == parameter && (self.piece == number || is_common())
-    }
 }
 
 /// How a column differs from the base, and over what the difference is divided.
@@ -97,12 +84,9 @@ impl<'a> Tangents<'a> {
         fitted: &[Piece],
         tried: &[Piece],
     ) -> (Self, Vec<Column>) {
-        let mut columns: Vec<Column> = Vec::new();
+        let mut columns = Vec::new();
         for (number, piece) in fitted.iter().chain(tried).enumerate() {
-            let is_new =
-                |parameter: &usize| !columns.iter().any(|column| column.is_of(fitted, number, *parameter));
-            let new: Vec<usize> = piece.free.iter().copied().filter(is_new).collect();
-            columns.extend(new.into_iter().map(|parameter| Column { piece: number, parameter }));
+            columns.extend(piece.free.iter().map(|&parameter| Column { piece: number, parameter }));
         }
         let chains = (0..data.takes.len()).map(|take| {
             let effects = active(fitted, take);
@@ -115,12 +99,11 @@ impl<'a> Tangents<'a> {
                 (with(Arc::new(changed), effects.clone()), step)
             });
             let of = |column: &Column| {
-                let mut pieces = fitted.iter().chain(tried).enumerate();
-                let is_meant = |(number, piece): &(usize, &Piece)| {
-                    piece.takes.contains(&take) && column.is_of(fitted, *number, column.parameter)
-                };
-                let (number, piece) = pieces.find(is_meant)?;
-                let is_fitted = number < fitted.len();
+                let piece = fitted.iter().chain(tried).nth(column.piece)?;
+                if !piece.takes.contains(&take) {
+                    return None;
+                }
+                let is_fitted = column.piece < fitted.len();
                 let mut changed = effects.clone();
                 let parameter = &piece.effect.parameters[column.parameter];
                 let (values, step) = if piece.finite && !is_fitted {
@@ -138,7 +121,8 @@ impl<'a> Tangents<'a> {
                     (values, step)
                 };
                 if is_fitted {
-                    let place = fitted[..number].iter().filter(|piece| piece.takes.contains(&take)).count();
+                    let place =
+                        fitted[..column.piece].iter().filter(|piece| piece.takes.contains(&take)).count();
                     changed[place].values = values;
                     Some(Change::Chain(Box::new(with(Arc::clone(pixels), changed)), step))
                 } else {

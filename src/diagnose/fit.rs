@@ -285,18 +285,13 @@ impl Round {
         let theta = if damping > 0.0 { damped() } else { self.theta.clone() };
         let pixels = Arc::new(moved(pixels, &self.projected.own(&theta)));
         for (column, step) in self.columns.iter().zip(theta.iter()) {
-            let piece = &pieces[column.piece];
+            let piece = &mut pieces[column.piece];
             let parameter = &piece.effect.parameters[column.parameter];
-            let value = piece.values[column.parameter];
+            let value = &mut piece.values[column.parameter];
             // A shape moves by a third of itself at most: its tangent holds nearby.
             let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
             let (low, high) = parameter.bounds_within(pixels.full_scale_dn);
-            let moved = (value + step.clamp(-most, most)).clamp(low, high);
-            for number in 0..pieces.len() {
-                if column.is_of(&pieces, number, column.parameter) {
-                    pieces[number].values[column.parameter] = moved;
-                }
-            }
+            *value = (*value + step.clamp(-most, most)).clamp(low, high);
         }
         free_shapes(&mut pieces);
         (pixels, pieces)

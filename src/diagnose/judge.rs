@@ -4,16 +4,17 @@ use super::clusters::Level;
 use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
-use super::lines::agree;
+use super::lines::FLICKER_HZ;
 use super::location::{Located, Location, locate};
 use super::noise::beyond;
 use super::pass::{DISBELIEF, RIVAL_NATS, THRESHOLD};
-use super::pieces::{Piece, is_line, tolerance};
+use super::pieces::{Piece, tolerance};
 use super::random::{
     self, ORDERED_SHARE, RandomEffect, coordinate, deflated, errors, inflation, is_noisier, random_effect,
     words,
 };
 use super::search::{Found, Named, search};
+use super::source::{Shown, is_one, shown};
 use crate::physics::effects;
 
 /// Evidence (nats) from which on a coordinate counts as located.
@@ -103,28 +104,32 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };
     let mut places = places(data, &baseline);
     let mut left = self::places(data, &end);
+    // What random errors let appear among the columns is not asserted.
+    let inflation = inflation(data, &end);
     // A line of several sources was found, but is not what has its name.
-    let lines = found.named.iter().filter(|named| !has_one_source(&found.fit, named.name));
-    let lines: Vec<Place> = lines.map(|named| line(&found.fit, named, end.take)).collect();
+    let several = |named: &Named| {
+        let shown = shown(&found.fit, named.name, inflation);
+        if is_one(&shown) { None } else { line(&found, named, &shown) }
+    };
+    let is_clear = |line: &Place| deflated(inflation, line.ln_bayes, line.chi2.0) > LOCATED_NATS;
+    let lines: Vec<Place> = found.named.iter().filter_map(several).filter(is_clear).collect();
     for line in &lines {
         for places in [&mut places, &mut left] {
             let at = places.iter().position(|place| place.ln_bayes < line.ln_bayes);
             places.insert(at.unwrap_or(places.len()), line.clone());
         }
     }
-
-    // What random errors let appear among the columns is not asserted.
-    let inflation = inflation(data, &end);
     let stands = |named: &Named| {
         // Of two that were found together the evidence is that of both.
         let together = found.named.iter().filter(|other| other.ln_bayes == named.ln_bayes);
         let chi2: f64 = together.map(|named| named.score.0).sum();
         // A fit may explain much more than the tangents from which the evidence is.
         let chi2 = chi2.min(2.0 * (named.ln_bayes + FREEDOM_NATS));
-        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && has_one_source(&found.fit, named.name)
+        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && several(named).is_none()
     };
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
-    let explained: f64 = (found.baseline.chi2 - found.fit.chi2).max(0.0);
+    let unnamed: f64 = lines.iter().map(|line| line.chi2.0).sum();
+    let explained = (found.baseline.chi2 - found.fit.chi2 - unnamed).max(0.0);
     let dropped = named.len() < found.named.len();
 
     // A random effect takes with it what is left at random.
@@ -141,29 +146,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let rest = |place: &Place| place.chi2.0 - place.chi2.1 as f64;
     let rest: f64 = left.iter().filter(is_left).map(rest).fold(0.0, f64::max);
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
-    // One coordinate that says about as much as the effects together, or in one of its ways, is the simpler answer, whatever makes it: a name
-    // must say more than that by a nat, and each further one by as much as it must by than a rival.
-    let mut evidences: Vec<f64> = found.named.iter().map(|named| named.ln_bayes).collect();
-    // Of two that were found together it is that of both.
-    evidences.dedup();
-    // A fit may keep more than tangents promise.
-    let kept = 0.5 * explained - OCCAM_NATS * found.named.len() as f64;
-    let together: f64 = evidences.iter().sum::<f64>().max(kept);
-    // Far from the baseline columns promise more than there is, and of several effects none is sure.
+    // Far from the baseline columns promise more than there is, and of several effects none is sure; random errors, noise among them, raise all columns.
     let is_far = found.baseline.is_far_from(&found.fit);
-    let of_neighbours = found.named.iter().any(|named| OF_OTHER_PIXELS.contains(&named.name));
-    let flickers = found.named.iter().any(|named| named.name == "ambient_flicker");
-    let outvotes = |coordinate: &Located| {
-        let least = match coordinate.coordinate {
-            // What is said of neighbours is what those effects do, roughly.
-            "neighbours" if of_neighbours => f64::INFINITY,
-            // A flicker swings.
-            "time_s" if flickers && coordinate.looked > 1.0 => together + RIVAL_NATS,
-            _ => together - 1.0 - RIVAL_NATS * (found.named.len() as f64 - 1.0),
-        };
-        coordinate.ln_bayes > least.max(LOCATED_NATS)
-    };
-    let simpler = !is_far && !found.named.is_empty() && baseline.columns.iter().any(outvotes);
+    let simpler = !is_far && inflation == 1.0 && is_outvoted(&baseline, &named, explained);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
     if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random.or(excess) {
@@ -191,7 +176,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let verdict = if simpler {
         named.clear();
         Verdict::Unexplained
-    } else if rest == 0.0 || !named.is_empty() && remainder < believed && !(stays && named.len() > 2) {
+    } else if rest == 0.0
+        || !named.is_empty() && lines.is_empty() && remainder < believed && !(stays && named.len() > 2)
+    {
         if named.is_empty() { Verdict::Clean } else { Verdict::Explained }
     } else if random.is_some() && named.len() == 1 {
         Verdict::Explained
@@ -239,31 +226,46 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     }
 }
 
-/// Where a line is that was taken for `named`.
-fn line(fit: &Fit, named: &Named, take: usize) -> Place {
-    let pieces = fit.pieces.iter().filter(|piece| piece.effect.name == named.name);
-    let shapes = pieces.flat_map(|piece| piece.effect.parameters.iter().zip(&piece.values));
-    let hz = shapes.clone().find(|(parameter, _)| parameter.is_shape()).map_or(0.0, |(_, value)| *value);
-    let (ln_bayes, chi2) = (named.ln_bayes, named.score);
-    let shape = format!("offset, a line of {hz:.2} Hz that differs from recording to recording");
-    Place { coordinate: "time_s", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }
+/// Whether one coordinate at `baseline`, or one of its ways of being off, says about as much as the effects `named` together, which explain so
+/// much of chi squared: it is the simpler answer, whatever makes it.
+///
+/// A name must say more than that by a nat, and each further one by as much as it must by than a rival. Columns that explain no more, and are no fewer
+/// numbers, are only another form of the names.
+fn is_outvoted(baseline: &Location, named: &[Named], explained: f64) -> bool {
+    let Some(first) = named.first() else { return false };
+    let mut evidences: Vec<f64> = named.iter().map(|named| named.ln_bayes).collect();
+    // Of two that were found together it is that of both.
+    evidences.dedup();
+    // A fit may keep more than tangents promise.
+    let kept = 0.5 * explained - OCCAM_NATS * named.len() as f64;
+    let together = evidences.iter().sum::<f64>().max(kept);
+    let numbers: usize = named.iter().map(|named| named.score.1).sum();
+    let flickers = named.iter().any(|named| named.name == "ambient_flicker");
+    let outvotes = |coordinate: &Located| {
+        let is_swing = coordinate.looked > 1.0 && coordinate.coordinate == "time_s";
+        let least = match coordinate.coordinate {
+            // What is said of neighbours is what those effects do, roughly.
+            "neighbours" if OF_OTHER_PIXELS.contains(&first.name) => f64::INFINITY,
+            // A flicker swings.
+            "time_s" if flickers && is_swing => together + RIVAL_NATS,
+            _ => together - 1.0 - RIVAL_NATS * (named.len() as f64 - 1.0),
+        };
+        let (chi2, columns) = coordinate.chi2;
+        let is_other =
+            columns < numbers || chi2 - columns as f64 > explained - numbers as f64 + 2.0 * RIVAL_NATS;
+        is_other && coordinate.ln_bayes > least.max(LOCATED_NATS)
+    };
+    baseline.columns.iter().any(outvotes)
 }
 
-/// Whether what the effect called `name` does may come from one source: a line is as strong in all recordings.
-fn has_one_source(fit: &Fit, name: &str) -> bool {
-    let of_name = |(_, piece): &(usize, &Piece)| piece.effect.name == name && is_line(name);
-    let size = |(number, piece): (usize, &Piece)| {
-        let columns = fit.columns.iter().zip(&fit.sigma).filter(|(column, _)| column.piece == number);
-        let strengths: Vec<(f64, f64)> = columns
-            .filter(|(column, _)| !piece.effect.parameters[column.parameter].is_shape())
-            .map(|(column, sigma)| (piece.values[column.parameter], *sigma))
-            .collect();
-        let count = strengths.len().max(1) as f64;
-        let sum = |of: &dyn Fn(&(f64, f64)) -> f64| strengths.iter().map(|s| of(s).powi(2)).sum::<f64>();
-        (sum(&|s| s.0).sqrt(), (sum(&|s| s.1) / count).sqrt())
-    };
-    let sizes = fit.pieces.iter().enumerate().filter(of_name).map(size);
-    agree(&sizes.filter(|(_, sigma)| sigma.is_normal()).collect::<Vec<_>>())
+/// Where a line is that was taken for `named`, but has not one source.
+fn line(found: &Found, named: &Named, shown: &[Shown]) -> Option<Place> {
+    let clear = |shown: &Shown| shown.size.0 / shown.size.1;
+    let clearest = shown.iter().max_by(|a, b| clear(a).total_cmp(&clear(b)))?;
+    let shape = format!("offset, a line of {:.2} Hz that differs from recording to recording", clearest.hz);
+    let looked = found.baseline.series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);
+    let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, clearest.take);
+    Some(Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false })
 }
 
 /// The fit of what is `named` alone: the search may have found more than stands.

@@ -49,6 +49,8 @@ pub struct Line {
     pub looked: f64,
     /// Its amplitude in each group, with the standard deviation of that.
     pub sizes: Vec<(f64, f64)>,
+    /// Where it is in each group: the frequency, or one near it where that group clearly has more.
+    pub own: Vec<f64>,
 }
 
 /// Lamps flicker with twice the mains' frequency, and not with all others: Hz.
@@ -56,13 +58,13 @@ pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
 /// Periods of an encoder's error: cycles a metre.
 const CYCLES_M: (f64, f64) = (0.6, 250.0);
 /// Frequencies are so many times finer than the inverse of the whole length.
-const FINENESS: f64 = 4.0;
+pub const FINENESS: f64 = 4.0;
 /// Of a line that is seen nearly at rest, so many cycles over the whole length are a drift too.
 const DRIFT_CYCLES: f64 = 3.0;
 /// The same where the line is twice the mains' frequency, which is known beforehand: Hz, and by what share it is off at most.
 const MAINS_DRIFT_CYCLES: f64 = 1.5;
 const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
-const MAINS_OFF: f64 = 2e-3;
+pub const MAINS_OFF: f64 = 2e-3;
 
 impl Series {
     /// With one more frame.
@@ -131,6 +133,13 @@ impl Series {
         strongest(&groups, ends, period_s)
     }
 
+    /// Standard deviation of the amplitude of a line in recording `take`, as a share of the ambient light; nothing where there is none.
+    pub fn blur(&self, take: usize) -> Option<f64> {
+        let of_take = self.frames.iter().filter(|frame| frame.0 == take);
+        let information: f64 = of_take.map(|frame| frame.2.1).sum();
+        (information > 0.0).then(|| (2.0 / information).sqrt())
+    }
+
     /// The strongest line in the encoder's reading, cycles a metre.
     pub fn in_position(&self) -> Option<Line> {
         let sets = self.sets.iter().map(|seen| (seen.reading_m, seen.position)).collect();
@@ -181,17 +190,43 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f6
         ((2.0 * power[0] / information.max(1e-300)).sqrt(), (2.0 / information.max(1e-300)).sqrt())
     };
     let sizes = groups.iter().map(size).collect();
-    Some(Line { frequency, chi2: powers[best], looked: count as f64, sizes })
+    let window = (MAINS_OFF * frequency / step).floor();
+    let own = |group: &Vec<(f64, Sum)>| {
+        let low = frequency - window * step;
+        let mut powers = vec![0.0; 2 * window as usize + 1];
+        add_powers(group, low, step, &mut powers);
+        let common = powers[window as usize];
+        let best = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b])).unwrap_or(0);
+        let seen = group.iter().filter(|(_, sum)| sum.1 > 0.0).map(|(_, sum)| sum.0 * sum.0 / sum.1);
+        // More noise than was stated makes more of all frequencies.
+        let noise = (seen.clone().sum::<f64>() / seen.count().max(1) as f64).max(1.0);
+        if powers[best] > common + CLEARLY_MORE * noise { low + best as f64 * step } else { frequency }
+    };
+    let own = groups.iter().map(own).collect();
+    Some(Line { frequency, chi2: powers[best], looked: count as f64, sizes, own })
 }
+
+/// Chi squared by which noise as it was stated hardly ever makes a line stronger nearby.
+const CLEARLY_MORE: f64 = 25.0;
 
 /// Amplitudes, with their standard deviations, that are less likely than this to be one and the same are not.
 const DISAGREEING: f64 = 1e-3;
 
+/// Of the same amplitude recordings show shares that differ by so much: a period that is not quite that of the line, outliers that were tamed.
+const UNSURE: f64 = 0.1;
+
 /// Whether amplitudes, each with its standard deviation, may be one and the same.
 pub fn agree(sizes: &[(f64, f64)]) -> bool {
-    let weights: f64 = sizes.iter().map(|(_, sigma)| sigma.powi(-2)).sum();
-    let mean = sizes.iter().map(|(size, sigma)| size * sigma.powi(-2)).sum::<f64>() / weights;
-    let chi2 = sizes.iter().map(|(size, sigma)| ((size - mean) / sigma).powi(2)).sum();
+    // Noise alone has an amplitude, too (Rice 1945).
+    let size = |&(size, sigma): &(f64, f64)| (size * size - sigma * sigma).max(0.0).sqrt();
+    let mean = |sigma: &dyn Fn(f64) -> f64| {
+        let weights: f64 = sizes.iter().map(|s| sigma(s.1).powi(-2)).sum();
+        sizes.iter().map(|s| size(s) * sigma(s.1).powi(-2)).sum::<f64>() / weights
+    };
+    let about = mean(&|sigma| sigma);
+    let sigma = |sigma: f64| sigma.hypot(UNSURE * about);
+    let mean = mean(&sigma);
+    let chi2 = sizes.iter().map(|s| ((size(s) - mean) / sigma(s.1)).powi(2)).sum();
     sizes.len() < 2 || tail(chi2, sizes.len() - 1) > DISAGREEING
 }
 
@@ -252,6 +287,17 @@ fn explained(c: f64, s: f64, cc: f64, ss: f64, cs: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn equal_amplitudes_agree_and_others_do_not() {
+        assert!(agree(&[]) && agree(&[(3.0, 0.1)]));
+        assert!(agree(&[(3.0, 0.1), (3.1, 0.2), (2.9, 0.1)]));
+        assert!(!agree(&[(3.0, 0.1), (0.1, 0.1)]));
+        // One that is weak everywhere is as weak in each.
+        assert!(agree(&[(1.3, 1.0), (0.8, 1.0), (1.4, 1.0), (2.0, 1.0)]));
+        // A tenth is not known so well.
+        assert!(agree(&[(100.0, 0.1), (108.0, 0.1)]));
+    }
 
     #[test]
     fn a_line_is_found_among_gaps() {

@@ -21,8 +21,6 @@ pub struct Located {
     pub shape: String,
     /// Evidence, nats: that of all its columns, or of a part of them that says more.
     pub ln_bayes: f64,
-    /// Evidence of all its columns, nats.
-    pub whole_ln_bayes: f64,
     /// Chi squared that those explain that say most, and how many they are.
     pub chi2: (f64, usize),
     /// Of waves, how many were looked at, and these over what the recordings themselves show of the noise; 1 of columns.
@@ -50,7 +48,7 @@ type Seen = (Clusters, Profiles, Codes);
 impl Located {
     /// A wave, the strongest of so many that were `looked` at.
     fn wave(coordinate: &'static str, shape: String, ln_bayes: f64, chi2: (f64, usize), looked: f64) -> Self {
-        Self { coordinate, shape, ln_bayes, whole_ln_bayes: ln_bayes, chi2, looked }
+        Self { coordinate, shape, ln_bayes, chi2, looked }
     }
 }
 
@@ -82,10 +80,9 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         .map(|((coordinate, projected), &size)| {
             let all: Vec<usize> = (0..size).collect();
             let blocks = [vec![all], parts(coordinate.name, &ranges, size)].concat();
-            let Said { ln_bayes, whole_ln_bayes, chi2, best } =
-                evidence(projected, base.columns.len(), &blocks);
+            let Said { ln_bayes, chi2, best } = evidence(projected, base.columns.len(), &blocks);
             let shape = (coordinate.shape)(&ranges, best);
-            Located { coordinate: coordinate.name, shape, ln_bayes, whole_ln_bayes, chi2, looked: 1.0 }
+            Located { coordinate: coordinate.name, shape, ln_bayes, chi2, looked: 1.0 }
         })
         .collect();
     let every = data.grid.every as f64;
@@ -115,7 +112,6 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
 /// What a coordinate's columns say.
 struct Said {
     ln_bayes: f64,
-    whole_ln_bayes: f64,
     chi2: (f64, usize),
     /// Which column alone says most.
     best: usize,
@@ -149,7 +145,6 @@ fn evidence(mut projected: Projected, fitted: usize, blocks: &[Vec<usize>]) -> S
     let best = of[strongest].columns.iter().copied().max_by(|&a, &b| alone(a).total_cmp(&alone(b)));
     Said {
         ln_bayes: ln_bayes[strongest],
-        whole_ln_bayes: ln_bayes[0],
         chi2: evidence.score(strongest).unwrap_or((0.0, 0)),
         best: best.unwrap_or(fitted) - fitted,
     }

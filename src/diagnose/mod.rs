@@ -29,6 +29,7 @@ mod ranges;
 mod search;
 mod settle;
 mod simpler;
+mod source;
 mod swings;
 mod verdict;
 mod waves;

@@ -29,8 +29,8 @@ const PARTS: [(&str, Parts); 9] = [
             parts.extend(parts.iter().map(short).collect::<Vec<_>>());
         }
         // A pulse into the read-out is the offset of one frame, in sets of whatever length.
-        let longest = ranges.frames.iter().map(|(frames, _)| *frames).filter(|frames| *frames <= SHORT).max();
-        parts.extend((0..longest.unwrap_or(0)).map(|frame| {
+        let longest = ranges.frames.iter().map(|(frames, _)| *frames).max();
+        parts.extend((0..longest.unwrap_or(0).min(SHORT)).map(|frame| {
             let of_it = ranges.frames.iter().filter(|(frames, _)| frame < *frames);
             let mut numbers: Vec<usize> = of_it.map(|(_, first)| first + frame).collect();
             // Recordings of as many frames share them.
@@ -95,8 +95,8 @@ mod tests {
     #[test]
     fn frames_of_short_sets_are_parts_besides() {
         let parts = parts("frame", &ranges(vec![(4, 0), (64, 4)]), 3 * 68);
-        // All and the short ones in three ways, and four frames alone.
-        assert_eq!(parts.len(), 6 + 4);
+        // All and the short ones in three ways, and eight frames alone.
+        assert_eq!(parts.len(), 6 + 8);
         assert_eq!(parts[3], [0, 1, 2, 3]);
         assert_eq!(parts[5], [136, 137, 138, 139]);
         assert_eq!(parts[7], [1, 5]);

@@ -115,8 +115,12 @@ impl Pass {
         let invisible =
             (0..candidates.len()).filter(unseen).map(|number| candidates[number].effect.name).collect();
         let mut detectable: Vec<Detectable> = Vec::new();
-        for block in &blocks {
-            let rho = powerful_rho(block.columns.len(), block.variants, candidates.len(), THRESHOLD);
+        let mut powerful = BTreeMap::<(usize, u64), f64>::new();
+        // What is asked of the recordings as they are.
+        for (block, score) in blocks.iter().zip(&scores).filter(|_| base.columns.is_empty()) {
+            let Some((_, numbers)) = *score else { continue };
+            let rho = || powerful_rho(numbers, block.variants, candidates.len(), THRESHOLD);
+            let rho = *powerful.entry((numbers, block.variants.to_bits())).or_insert_with(rho);
             for &column in &block.columns {
                 let (number, parameter) = parameters[column];
                 let information = projected.matrix[(column, column)];

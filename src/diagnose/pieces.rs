@@ -26,6 +26,18 @@ pub struct Variant {
     pub pieces: Vec<Piece>,
 }
 
+impl Variant {
+    /// Where recordings have pieces of their own, these begin at their `own` shapes.
+    fn begin_at(&mut self, own: &[f64]) {
+        for piece in self.pieces.iter_mut().filter(|piece| piece.takes.len() == 1) {
+            let shape = piece.effect.parameters.iter().position(Parameter::is_shape);
+            if let (Some(shape), Some(&value)) = (shape, own.get(piece.takes[0])) {
+                piece.values[shape] = value;
+            }
+        }
+    }
+}
+
 /// An effect that is a candidate, in all variants of its shape.
 #[derive(Debug, Clone)]
 pub struct Candidate {
@@ -95,11 +107,27 @@ pub fn tolerance(name: &str) -> f64 {
     TOLERANCES.iter().find(|(known, _)| *known == name).map_or(EXACT, |(_, tolerance)| *tolerance)
 }
 
-/// Effects whose shape is the period of a line: where it is, and among how many it was looked for.
-type LineShape = fn(&Series) -> Option<(f64, f64)>;
+/// A line that was found: its shape, among how many it was looked for, and its shape in each recording where that may differ.
+struct Found {
+    shape: f64,
+    looked: f64,
+    own: Vec<f64>,
+}
+
+/// Effects whose shape is the period of a line.
+type LineShape = fn(&Series) -> Option<Found>;
 const LINES: [(&str, LineShape); 2] = [
-    ("ambient_flicker", |series| series.in_time(FLICKER_HZ).map(|line| (line.frequency, line.looked))),
-    ("encoder_cyclic", |series| series.in_position().map(|line| (line.frequency.recip(), line.looked))),
+    ("ambient_flicker", |series| {
+        series.in_time(FLICKER_HZ).map(|line| Found {
+            shape: line.frequency,
+            looked: line.looked,
+            own: line.own,
+        })
+    }),
+    ("encoder_cyclic", |series| {
+        let line = series.in_position()?;
+        Some(Found { shape: line.frequency.recip(), looked: line.looked, own: Vec::new() })
+    }),
 ];
 
 /// Effects that a pixel's neighbours make: they cannot be seen where those are not looked at.
@@ -125,10 +153,13 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         })
         .map(|effect| {
             let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));
-            let shapes = line.map(|(shape, _)| vec![shape]);
-            let variants = variants(effect, data, shapes.as_deref());
+            let shapes = line.as_ref().map(|line| vec![line.shape]);
+            let mut variants = variants(effect, data, shapes.as_deref());
+            if let Some(line) = &line {
+                variants.iter_mut().for_each(|variant| variant.begin_at(&line.own));
+            }
             // A line is one of many frequencies that were looked at.
-            let looked = variants.len() as f64 * line.map_or(1.0, |(_, looked)| looked);
+            let looked = variants.len() as f64 * line.map_or(1.0, |line| line.looked);
             Candidate { effect, looked, variants }
         })
         .collect()
@@ -209,11 +240,6 @@ fn pieces(
             Piece { effect, values: values.to_vec(), free, takes, finite: false }
         })
         .collect()
-}
-
-/// Whether the numbers `parameter` of all pieces of `effect` are one: the period of a line, which whatever makes it has in all recordings.
-pub fn is_common(effect: &Effect, parameter: usize) -> bool {
-    is_line(effect.name) && effect.parameters[parameter].is_shape()
 }
 
 /// Whether the effect called `name` is a line in time, or in the encoder's reading.

@@ -3,20 +3,33 @@
 
 use super::clusters::MODES;
 use super::evidence::of_greatest;
-use super::lines::{Sum, agree, strongest};
-use std::collections::BTreeMap;
+use super::lines::{FINENESS, Sum, agree, strongest};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Modes that may swing: the first ones of [`MODES`].
 pub const SWINGING: usize = 3;
 
-/// A set: its recording, its time (s), and what it says of each mode.
-type Seen = (usize, f64, [Sum; SWINGING]);
+/// A set.
+#[derive(Debug, Clone, Copy)]
+pub struct Seen {
+    /// Its recording.
+    pub take: usize,
+    /// When it was taken, s.
+    pub time_s: f64,
+    /// Phase offset (rad) and commanded position (m).
+    pub at: [f64; 2],
+    /// What it says of each mode.
+    pub modes: [Sum; SWINGING],
+}
 
 /// What all sets say.
 #[derive(Debug, Clone, Default)]
 pub struct Swings {
     sets: Vec<Seen>,
 }
+
+/// A recording's sets: when, and what they say of a mode.
+type Take = Vec<(f64, Sum)>;
 
 /// The strongest swing of a mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,21 +50,21 @@ pub struct Swing {
 const LEAST_CYCLES: f64 = 2.0;
 /// Sets that a recording has at least.
 const LEAST_SETS: usize = 16;
-/// Recordings at least: in one alone, what comes again with the position or the phase does so in time.
-const LEAST_TAKES: usize = 2;
+/// A line's numbers in a recording: cosine and sine.
+const NUMBERS: usize = 2;
 /// Standard deviations that a set is taken to be off at most.
-const MOST: f64 = 4.0;
-/// Frequencies that are looked at, at most.
-const MOST_CYCLES: f64 = 20_000.0;
+const MOST: f64 = 10.0;
+/// Products of frequencies and sets that are looked at, at most.
+const MOST_PRODUCTS: f64 = 2e8;
 
 impl Swings {
     /// With one more set.
-    pub fn add(&mut self, take: usize, time_s: f64, modes: [Sum; SWINGING]) {
-        let tame = |(score, information): Sum| {
+    pub fn add(&mut self, mut seen: Seen) {
+        for (score, information) in &mut seen.modes {
             let most = MOST * information.sqrt();
-            (score.clamp(-most, most), information)
-        };
-        self.sets.push((take, time_s, modes.map(tame)));
+            *score = score.clamp(-most, most);
+        }
+        self.sets.push(seen);
     }
 
     /// Those of both.
@@ -65,45 +78,63 @@ impl Swings {
         (0..SWINGING).filter_map(|mode| self.of_mode(mode)).collect()
     }
 
-    fn of_mode(&self, mode: usize) -> Option<Swing> {
-        let mut takes: BTreeMap<usize, Vec<(f64, Sum)>> = BTreeMap::new();
-        for (take, time_s, modes) in self.sets.iter().filter(|set| set.2[mode].1 > 0.0) {
-            takes.entry(*take).or_default().push((*time_s, modes[mode]));
+    /// The recordings that say something of a mode; none where all of them move alike, because there what comes again with the phase or the position
+    /// does so in time.
+    fn takes(&self, mode: usize) -> Vec<Take> {
+        let mut takes: BTreeMap<usize, Vec<&Seen>> = BTreeMap::new();
+        for seen in self.sets.iter().filter(|seen| seen.modes[mode].1 > 0.0) {
+            takes.entry(seen.take).or_default().push(seen);
         }
         takes.retain(|_, sets| sets.len() >= LEAST_SETS);
-        let mut takes: Vec<_> = takes.into_values().collect();
-        if takes.len() < LEAST_TAKES {
-            return None;
+        let moves =
+            |sets: &Vec<&Seen>| [0, 1].map(|way| sets.iter().any(|set| set.at[way] != sets[0].at[way]));
+        let ways: BTreeSet<[bool; 2]> = takes.values().map(moves).collect();
+        if ways.len() < 2 {
+            return Vec::new();
         }
-        takes.iter_mut().for_each(|sets| sets.sort_by(|a, b| a.0.total_cmp(&b.0)));
+        let of_mode = |mut sets: Vec<&Seen>| {
+            sets.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+            let sums = sets.iter().map(|set| set.modes[mode]);
+            let (score, information) = sums.fold((0.0, 0.0), |sum, set| (sum.0 + set.0, sum.1 + set.1));
+            let mean = score / information;
+            sets.iter()
+                .map(|set| (set.time_s, (set.modes[mode].0 - mean * set.modes[mode].1, set.modes[mode].1)))
+                .collect()
+        };
+        takes.into_values().map(of_mode).collect()
+    }
+
+    fn of_mode(&self, mode: usize) -> Option<Swing> {
+        let mut takes = self.takes(mode);
         let longest_s = takes.iter().map(|sets| sets[sets.len() - 1].0 - sets[0].0).fold(0.0, f64::max);
         let between_s = takes.iter().flat_map(|sets| sets.windows(2).map(|pair| pair[1].0 - pair[0].0));
-        let shortest_s = between_s.filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
-        if !longest_s.is_finite() || longest_s <= 0.0 {
+        let mut between_s: Vec<f64> = between_s.filter(|s| *s > 0.0).collect();
+        between_s.sort_by(f64::total_cmp);
+        let usual_s = *between_s.get(between_s.len() / 2)?;
+        let sets = takes.iter().map(Vec::len).sum::<usize>() as f64;
+        let most = MOST_PRODUCTS / (sets * FINENESS * longest_s);
+        let ends = (LEAST_CYCLES / longest_s, (0.5 / usual_s).min(most));
+        if !longest_s.is_finite() || ends.0.is_nan() || ends.0 >= ends.1 {
             return None;
         }
-        let ends = (LEAST_CYCLES / longest_s, (0.5 / shortest_s).min(MOST_CYCLES / longest_s));
-        if ends.0 >= ends.1 {
-            return None;
+        // Errors of sets that are white raise all frequencies of a recording alike.
+        let found = strongest(&takes, ends, 0.0)?;
+        for (take, (size, sigma)) in takes.iter_mut().zip(&found.sizes) {
+            let all: f64 = take.iter().map(|(_, (score, information))| score * score / information).sum();
+            let noise = ((all - (size / sigma).powi(2)) / (take.len() - NUMBERS) as f64).max(1.0);
+            take.iter_mut().for_each(|(_, sum)| *sum = (sum.0 / noise, sum.1 / noise));
         }
         let line = strongest(&takes, ends, 0.0)?;
-        if !agree(&line.sizes) {
-            return None;
-        }
-        // Errors of sets that are white raise all frequencies alike.
-        let numbers = 2 * takes.len();
-        let all = takes.iter().flatten().map(|(_, (score, information))| score * score / information);
-        let others = takes.iter().map(Vec::len).sum::<usize>() - numbers;
-        let noise = ((all.sum::<f64>() - line.chi2) / others as f64).max(1.0);
-        let chi2 = line.chi2 / noise;
-        let ln_bayes = of_greatest(chi2, numbers, line.looked);
-        Some(Swing {
+        let numbers = NUMBERS * takes.len();
+        let ln_bayes = of_greatest(line.chi2, numbers, line.looked);
+        let swing = Swing {
             mode: MODES[mode],
             hz: line.frequency,
             ln_bayes,
-            chi2: (chi2, numbers),
+            chi2: (line.chi2, numbers),
             looked: line.looked,
-        })
+        };
+        agree(&line.sizes).then_some(swing)
     }
 }
 
@@ -113,38 +144,76 @@ mod tests {
     use crate::physics::Draws;
     use std::f64::consts::TAU;
 
-    /// Of two recordings of 120 sets each, a fifth of a second from one to the next, with so many standard deviations of noise.
-    fn swing(noise: f64, phase: impl Fn(usize, f64) -> f64) -> Option<Swing> {
+    /// Of a sweep and a rail of 120 sets each, a fifth of a second from one to the next, with so many standard deviations of noise in each.
+    fn swing(seed: u64, noise: [f64; 2], phase: impl Fn(usize, f64) -> f64) -> Option<Swing> {
         let mut swings = Swings::default();
         for take in 0..2_usize {
-            let draws = Draws::of(11, take as u64).normal(120);
+            let draws = Draws::of(seed, take as u64).normal(120);
             for (set, draw) in draws.iter().enumerate() {
                 let time_s = 0.2 * set as f64;
-                let sum = noise * draw + phase(take, time_s);
-                swings.add(take, time_s, [(0.0, 0.0), (0.0, 0.0), (sum, 1.0)]);
+                let mut at = [0.0; 2];
+                at[take] = set as f64;
+                let sum = noise[take] * draw + phase(take, time_s);
+                swings.add(Seen { take, time_s, at, modes: [(0.0, 0.0), (0.0, 0.0), (sum, 1.0)] });
             }
         }
         swings.strongest().into_iter().next()
     }
 
+    fn thermostat(take: usize, time_s: f64) -> f64 {
+        0.8 * (TAU * time_s / 3.1 + take as f64).sin()
+    }
+
     #[test]
     fn a_thermostat_is_found_below_the_noise() {
-        let found = swing(1.0, |take, time_s| 0.8 * (TAU * time_s / 3.1 + take as f64).sin()).unwrap();
+        let found = swing(11, [1.0, 1.0], thermostat).unwrap();
         assert!(found.ln_bayes > 4.0 && (found.hz - 1.0 / 3.1).abs() < 0.02, "{found:?}");
         assert_eq!(found.mode, "phase");
+        // It is as strong in the recording that has more noise, and in both where a set is far above the noise.
+        assert!(swing(12, [0.5, 1.5], thermostat).is_some_and(|found| found.ln_bayes > 4.0));
+        let strong = swing(13, [1.0, 1.0], |take, time_s| 8.0 * thermostat(take, time_s)).unwrap();
+        assert!(strong.ln_bayes > 100.0, "{strong:?}");
     }
 
     #[test]
     fn noise_does_not_swing_even_where_there_is_more_of_it() {
-        for noise in [1.0, 3.0] {
-            let found = swing(noise, |_, _| 0.0);
-            assert!(found.is_none_or(|swing| swing.ln_bayes < 1.0), "{noise}: {found:?}");
+        for noise in [[1.0, 1.0], [3.0, 3.0], [1.0, 4.0]] {
+            let alarms = (0..200)
+                .filter(|seed| swing(*seed, noise, |_, _| 0.0).is_some_and(|swing| swing.ln_bayes > 1.0));
+            assert_eq!(alarms.count(), 0, "{noise:?}");
         }
     }
 
     #[test]
     fn what_one_recording_alone_shows_is_no_swing() {
-        let found = swing(1.0, |take, time_s| if take == 0 { 1.5 * (TAU * time_s / 3.1).sin() } else { 0.0 });
+        let found = swing(
+            11,
+            [1.0, 1.0],
+            |take, time_s| if take == 0 { 1.5 * (TAU * time_s / 3.1).sin() } else { 0.0 },
+        );
         assert_eq!(found, None);
+    }
+
+    #[test]
+    fn recordings_that_move_alike_and_odd_times_show_nothing() {
+        let swings = |at: f64, time_s: &dyn Fn(usize) -> f64| {
+            let mut swings = Swings::default();
+            for (take, set) in (0..2 * LEAST_SETS).map(|n| (n / LEAST_SETS, n % LEAST_SETS)) {
+                let modes = [((set % 3) as f64, 1.0); SWINGING];
+                swings.add(Seen {
+                    take,
+                    time_s: time_s(set),
+                    at: [set as f64, at * (take * set) as f64],
+                    modes,
+                });
+            }
+            swings.strongest()
+        };
+        assert_eq!(swings(0.0, &|set| set as f64).len(), 0);
+        for time_s in [0.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(swings(1.0, &|_| time_s).len(), 0, "{time_s}");
+        }
+        // Nor do they take long.
+        swings(1.0, &|set| if set == 1 { 1e9 } else { 1e-9 * set as f64 });
     }
 }

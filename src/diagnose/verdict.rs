@@ -9,7 +9,7 @@ use super::held_out::{HeldOut, held_out};
 use super::judge::{Judgement, Place, Verdict, judge};
 use super::next::next;
 use super::noise::measured;
-use super::pieces::{OF_NEIGHBOURS, Piece, is_common};
+use super::pieces::{OF_NEIGHBOURS, Piece};
 use super::search::Named;
 use super::settle::{outlying, with_mask};
 use super::stated_noise;
@@ -330,13 +330,7 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRo
         let takes: Vec<&str> = piece.takes.iter().map(|&take| data.takes[take].name.as_str()).collect();
         let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
         for (parameter, known) in piece.effect.parameters.iter().enumerate() {
-            let column = fit.columns.iter().position(|c| c.is_of(&fit.pieces, number, parameter));
-            // What all recordings have in common is said once.
-            let is_said = column.is_some_and(|column| fit.columns[column].piece != number);
-            if is_said {
-                continue;
-            }
-            let suffix = if is_common(piece.effect, parameter) { "" } else { &suffix[..] };
+            let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
             let sigma = column.map_or(0.0, |column| fit.sigma[column]);
             if column.is_none() && !known.is_shape() {
                 continue;
