@@ -6,6 +6,7 @@ mod rewritten;
 
 use diagnosed::{names, parameter, verdict, vuris};
 use rewritten::{Sample, rewrite};
+use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -27,6 +28,14 @@ fn with(sample: Sample, more: f64) -> f64 {
     let places = [recording, set, frame, row, column].map(|place| place as f64);
     let mixed = places.iter().zip([12.9898, 78.233, 37.719, 4.581, 91.17]).map(|(a, b)| a * b).sum::<f64>();
     code + (more + (mixed.sin() * 43_758.545_3).rem_euclid(1.0)).floor()
+}
+
+/// What is said of a clean campaign whose codes are changed.
+fn verdict_of(recordings: &str, change: impl Fn(Sample) -> f64) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), SIZE, recordings, &[]);
+    rewrite(&campaign, change);
+    verdict(&campaign)
 }
 
 /// Sets begin eleven frames apart.
@@ -69,12 +78,9 @@ fn an_encoders_error_is_no_noise_of_it() {
 /// Bands of rows of a tenth of the noise, that drift: neither a function of the row nor errors of single rows.
 #[test]
 fn weak_bands_of_rows_are_a_mismatch_in_the_row() {
-    let folder = tempfile::tempdir().unwrap();
-    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
-    rewrite(&campaign, |sample| {
+    let verdict = verdict_of("four-sweep,four-rail", |sample| {
         with(sample, 0.6 * (TAU * (sample.row as f64 / 4.0 + time_s(sample) / 2.3)).cos())
     });
-    let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
     let place = &verdict["located"][0];
     assert_eq!(place["coordinate"], "row", "{place:#}");
@@ -88,10 +94,9 @@ fn weak_bands_of_rows_are_a_mismatch_in_the_row() {
 /// An offset of the second frame of each set is found although sets of 64 frames could have one of each.
 #[test]
 fn a_pulse_in_one_frame_is_a_mismatch_in_the_frame() {
-    let folder = tempfile::tempdir().unwrap();
-    let campaign = campaign(folder.path(), SIZE, "four-sweep,wdft-sweep,harmonics", &[]);
-    rewrite(&campaign, |sample| with(sample, if sample.frame == 1 { 1.5 } else { 0.0 }));
-    let verdict = verdict(&campaign);
+    let verdict = verdict_of("four-sweep,wdft-sweep,harmonics", |sample| {
+        with(sample, if sample.frame == 1 { 1.5 } else { 0.0 })
+    });
     assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
     assert_eq!(verdict["located"][0]["coordinate"], "frame", "{verdict:#}");
 }
@@ -99,13 +104,10 @@ fn a_pulse_in_one_frame_is_a_mismatch_in_the_frame() {
 /// What comes and goes with a frequency of its own in each recording is no lamp.
 #[test]
 fn lines_of_different_frequencies_are_no_flicker() {
-    let folder = tempfile::tempdir().unwrap();
-    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
-    rewrite(&campaign, |sample| {
+    let verdict = verdict_of("four-sweep,four-rail", |sample| {
         let frequency_hz = [103.3, 108.9][sample.recording];
         with(sample, 1.2 * (TAU * frequency_hz * time_s(sample)).cos())
     });
-    let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
     assert_eq!(verdict["located"][0]["coordinate"], "time_s", "{verdict:#}");
 }
@@ -113,25 +115,19 @@ fn lines_of_different_frequencies_are_no_flicker() {
 /// The mains wander, by less than a lamp's light is known: 0.05 % from one recording to the next.
 #[test]
 fn a_lamp_is_one_source_although_the_mains_wander() {
-    let folder = tempfile::tempdir().unwrap();
-    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
-    rewrite(&campaign, |sample| {
+    let verdict = verdict_of("four-sweep,four-rail", |sample| {
         let frequency_hz = [103.3, 103.35][sample.recording];
         with(sample, 1.2 * (TAU * frequency_hz * time_s(sample) + sample.recording as f64).cos())
     });
-    let verdict = verdict(&campaign);
     assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
 }
 
 /// A gain that swings with a thermostat, by a fifth of the noise: no function of the time that few numbers say.
 #[test]
 fn a_swing_is_a_mismatch_in_time() {
-    let folder = tempfile::tempdir().unwrap();
-    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &[]);
-    rewrite(&campaign, |sample| {
+    let verdict = verdict_of("four-sweep,four-rail", |sample| {
         with(sample, 0.0012 * (sample.code - 64.0) * (TAU * time_s(sample) / 2.9).cos())
     });
-    let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
     let place = &verdict["located"][0];
     assert_eq!(place["coordinate"], "time_s", "{place:#}");
@@ -143,10 +139,8 @@ fn a_swing_is_a_mismatch_in_time() {
 /// An offset of one frame of each set, which other gains of the frames would nearly make.
 #[test]
 fn a_weak_pulse_in_one_frame_is_no_other_gain() {
-    let folder = tempfile::tempdir().unwrap();
-    let campaign = campaign(folder.path(), SIZE, "four-sweep,wdft-sweep", &[]);
-    rewrite(&campaign, |sample| with(sample, if sample.frame == 1 { 0.7 } else { 0.0 }));
-    let verdict = verdict(&campaign);
+    let verdict =
+        verdict_of("four-sweep,wdft-sweep", |sample| with(sample, if sample.frame == 1 { 0.7 } else { 0.0 }));
     assert_eq!(names(&verdict), [""; 0], "{verdict:#}");
     assert_eq!(verdict["located"][0]["coordinate"], "frame", "{verdict:#}");
 }

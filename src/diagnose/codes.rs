@@ -1,6 +1,6 @@
 //! Waves over the converter's codes: errors that come again after so many codes, as those of a bit do, with whatever period.
 
-use super::evidence::of_greatest;
+use super::evidence::Greatest;
 use super::gram::Whitened;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -25,12 +25,8 @@ pub struct Codes {
 pub struct CodeWave {
     /// From crest to crest, DN.
     pub period_dn: f64,
-    /// Evidence, nats.
-    pub ln_bayes: f64,
-    /// Chi squared that it explains, by two numbers.
-    pub chi2: f64,
-    /// Waves that were looked at.
-    pub looked: f64,
+    /// What it says among all waves.
+    pub found: Greatest,
 }
 
 impl Codes {
@@ -99,8 +95,7 @@ impl Codes {
         let mean = places.iter().map(|&at| power(at)).sum::<f64>() / places.len().max(1) as f64;
         let best = places.iter().copied().max_by(|&a, &b| power(a).total_cmp(&power(b)))?;
         let chi2 = power(best) / (0.5 * mean).max(1.0);
-        let looked = places.len() as f64;
-        Some(CodeWave { period_dn: period_dn(best), ln_bayes: of_greatest(chi2, 2, looked), chi2, looked })
+        Some(CodeWave { period_dn: period_dn(best), found: Greatest::of(chi2, 2, places.len() as f64) })
     }
 }
 
@@ -123,13 +118,13 @@ mod tests {
     #[test]
     fn a_period_that_nobody_knows_is_found() {
         let wave = strongest(|code| 0.02 * (TAU * code / 42.7).cos());
-        assert!(wave.ln_bayes > 4.0 && (wave.period_dn - 42.7).abs() < 0.5, "{wave:?}");
-        assert!(strongest(|_| 0.0).ln_bayes < 1.0);
+        assert!(wave.found.ln_bayes > 4.0 && (wave.period_dn - 42.7).abs() < 0.5, "{wave:?}");
+        assert!(strongest(|_| 0.0).found.ln_bayes < 1.0);
     }
 
     #[test]
     fn a_curve_is_no_wave() {
         let wave = strongest(|code| 1e-6 * (code - 1600.0).powi(2));
-        assert!(wave.ln_bayes < 4.0, "{wave:?}");
+        assert!(wave.found.ln_bayes < 4.0, "{wave:?}");
     }
 }

@@ -60,12 +60,26 @@ pub fn of_variance(variance: f64, score: f64, information: f64) -> f64 {
     0.5 * variance * score * score / (1.0 + share) - 0.5 * share.ln_1p()
 }
 
-/// Evidence (nats) of the greatest among so many `cells`, a `chi2` of so many `numbers`: what its chance is worth at most, p by Chernoff's bound,
-/// -1 / (e p ln p) (Sellke, Bayarri, Berger 2001).
-pub fn of_greatest(chi2: f64, numbers: usize, cells: f64) -> f64 {
-    let numbers = numbers as f64;
-    let surprise = 0.5 * chi2 - 0.5 * numbers * (1.0 + (chi2 / numbers).max(1.0).ln()) - cells.ln();
-    if surprise > 1.0 { surprise - 1.0 - surprise.ln() - LOOKED.ln() } else { 0.0 }
+/// The greatest of so many that were looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Greatest {
+    /// Evidence, nats.
+    pub ln_bayes: f64,
+    /// Chi squared that it explains, and by how many numbers.
+    pub chi2: (f64, usize),
+    /// How many were looked at.
+    pub looked: f64,
+}
+
+impl Greatest {
+    /// A `chi2` of so many `numbers`: its evidence is what its chance is worth at most, p by Chernoff's bound, -1 / (e p ln p) (Sellke, Bayarri, Berger
+    /// 2001).
+    pub fn of(chi2: f64, numbers: usize, looked: f64) -> Self {
+        let n = numbers as f64;
+        let surprise = 0.5 * chi2 - 0.5 * n * (1.0 + (chi2 / n).max(1.0).ln()) - looked.ln();
+        let ln_bayes = if surprise > 1.0 { surprise - 1.0 - surprise.ln() - LOOKED.ln() } else { 0.0 };
+        Self { ln_bayes, chi2: (chi2, numbers), looked }
+    }
 }
 
 /// Probability that chi squared of `degrees` is greater than `chi2`, by Wilson and Hilferty (1931) and the normal tail.
@@ -78,16 +92,21 @@ pub fn tail(chi2: f64, degrees: usize) -> f64 {
 /// Standard deviations by which 95 of 100 draws are above their mean less these.
 const POWER_SIGMAS: f64 = 1.645;
 
-/// Strength, in standard deviations, at which one of so many `numbers` of an effect, of so many `variants` and among so many `candidates`, has evidence
-/// beyond `threshold` (nats) in 95 of 100 campaigns; the others are as noise makes them.
-pub fn powerful_rho(numbers: usize, variants: f64, candidates: usize, threshold: f64) -> f64 {
+/// Evidence for an effect alone, of so many `variants` and among so many `candidates`, with this `score` and unit information.
+fn ln_bayes_alone(score: &DVector<f64>, variants: f64, candidates: usize) -> f64 {
+    let numbers = score.len();
     let matrix = DMatrix::identity(numbers, numbers);
     let raw = DVector::from_element(numbers, 1.0);
     let blocks = [Block { candidate: 0, variant: 0, variants, columns: (0..numbers).collect() }];
+    Evidence::new(&matrix, score, &raw, &|_| f64::INFINITY, &blocks, candidates).ln_bayes(&[0])
+}
+
+/// Strength, in standard deviations, at which one of so many `numbers` of an effect, of so many `variants` and among so many `candidates`, has evidence
+/// beyond `threshold` (nats) in 95 of 100 campaigns; the others are as noise makes them.
+pub fn powerful_rho(numbers: usize, variants: f64, candidates: usize, threshold: f64) -> f64 {
     let is_enough = |rho: f64| {
-        let vector = DVector::from_fn(numbers, |number, _| if number == 0 { rho } else { 1.0 });
-        let evidence = Evidence::new(&matrix, &vector, &raw, &|_| f64::INFINITY, &blocks, candidates);
-        evidence.ln_bayes(&[0]) > threshold
+        let score = DVector::from_fn(numbers, |number, _| if number == 0 { rho } else { 1.0 });
+        ln_bayes_alone(&score, variants, candidates) > threshold
     };
     let halved = |(low, high): (f64, f64), is_more: &dyn Fn(f64) -> bool| {
         let middle = 0.5 * (low + high);
@@ -275,14 +294,10 @@ mod tests {
         const DRAWS: usize = 400;
         for (numbers, variants) in [(1, 1.0), (1, 20_000.0), (7, 2.0), (68, 1.0)] {
             let rho = powerful_rho(numbers, variants, 30, 1.0);
-            let matrix = DMatrix::identity(numbers, numbers);
-            let raw = DVector::from_element(numbers, 1.0);
-            let blocks = [Block { candidate: 0, variant: 0, variants, columns: (0..numbers).collect() }];
             let is_seen = |draw: &usize| {
-                let mut vector = DVector::from_vec(Draws::of(5, *draw as u64).normal(numbers));
-                vector[0] += rho;
-                let evidence = Evidence::new(&matrix, &vector, &raw, &|_| f64::INFINITY, &blocks, 30);
-                evidence.ln_bayes(&[0]) > 1.0
+                let mut score = DVector::from_vec(Draws::of(5, *draw as u64).normal(numbers));
+                score[0] += rho;
+                ln_bayes_alone(&score, variants, 30) > 1.0
             };
             let seen = (0..DRAWS).filter(is_seen).count();
             // 380, and three standard deviations of a binomial number.

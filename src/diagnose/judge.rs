@@ -4,11 +4,11 @@ use super::clusters::Level;
 use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
-use super::lines::FLICKER_HZ;
+use super::lines::{FLICKER, FLICKER_HZ};
 use super::location::{Located, Location, locate};
 use super::noise::beyond;
 use super::pass::{DISBELIEF, RIVAL_NATS, THRESHOLD};
-use super::pieces::{Piece, tolerance};
+use super::pieces::{OF_OTHER_PIXELS, Piece, tolerance};
 use super::random::{
     self, ORDERED_SHARE, RandomEffect, coordinate, deflated, errors, inflation, is_noisier, random_effect,
     words,
@@ -25,8 +25,6 @@ const OCCAM_NATS: f64 = 10.0;
 const FREEDOM_NATS: f64 = 25.0;
 /// How often the noise is corrected.
 const NOISE_STEPS: usize = 2;
-/// Effects by which pixels disturb others.
-const OF_OTHER_PIXELS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lens_scatter"];
 
 /// Where a mismatch lives.
 #[derive(Debug, Clone)]
@@ -107,13 +105,10 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // What random errors let appear among the columns is not asserted.
     let inflation = inflation(data, &end);
     // A line of several sources was found, but is not what has its name.
-    let several = |named: &Named| {
-        let shown = shown(&found.fit, named.name, inflation);
-        if is_one(&shown) { None } else { line(&found, named, &shown) }
-    };
-    let is_clear = |line: &Place| deflated(inflation, line.ln_bayes, line.chi2.0) > LOCATED_NATS;
-    let lines: Vec<Place> = found.named.iter().filter_map(several).filter(is_clear).collect();
-    for line in &lines {
+    let several = several(&found, inflation);
+    let is_clear = |line: &&Place| deflated(inflation, line.ln_bayes, line.chi2.0) > LOCATED_NATS;
+    let unnamed = several.as_ref().filter(is_clear);
+    if let Some(line) = unnamed {
         for places in [&mut places, &mut left] {
             let at = places.iter().position(|place| place.ln_bayes < line.ln_bayes);
             places.insert(at.unwrap_or(places.len()), line.clone());
@@ -125,11 +120,11 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         let chi2: f64 = together.map(|named| named.score.0).sum();
         // A fit may explain much more than the tangents from which the evidence is.
         let chi2 = chi2.min(2.0 * (named.ln_bayes + FREEDOM_NATS));
-        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && several(named).is_none()
+        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && (named.name != FLICKER || several.is_none())
     };
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
-    let unnamed: f64 = lines.iter().map(|line| line.chi2.0).sum();
-    let explained = (found.baseline.chi2 - found.fit.chi2 - unnamed).max(0.0);
+    let of_line = unnamed.map_or(0.0, |line| line.chi2.0);
+    let explained = (found.baseline.chi2 - found.fit.chi2 - of_line).max(0.0);
     let dropped = named.len() < found.named.len();
 
     // A random effect takes with it what is left at random.
@@ -146,9 +141,11 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let rest = |place: &Place| place.chi2.0 - place.chi2.1 as f64;
     let rest: f64 = left.iter().filter(is_left).map(rest).fold(0.0, f64::max);
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
-    // Far from the baseline columns promise more than there is, and of several effects none is sure; random errors, noise among them, raise all columns.
+    // Far from the baseline columns promise more than there is, and of several effects none is sure. Noise that samples share raises all columns, and
+    // so does a random effect.
     let is_far = found.baseline.is_far_from(&found.fit);
-    let simpler = !is_far && inflation == 1.0 && is_outvoted(&baseline, &named, explained);
+    let are_raised = random.is_some() || random::noise(data, &end).is_some();
+    let simpler = !is_far && !are_raised && is_outvoted(&baseline, &named, explained);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
     if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random.or(excess) {
@@ -177,7 +174,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         named.clear();
         Verdict::Unexplained
     } else if rest == 0.0
-        || !named.is_empty() && lines.is_empty() && remainder < believed && !(stays && named.len() > 2)
+        || !named.is_empty() && unnamed.is_none() && remainder < believed && !(stays && named.len() > 2)
     {
         if named.is_empty() { Verdict::Clean } else { Verdict::Explained }
     } else if random.is_some() && named.len() == 1 {
@@ -240,7 +237,7 @@ fn is_outvoted(baseline: &Location, named: &[Named], explained: f64) -> bool {
     let kept = 0.5 * explained - OCCAM_NATS * named.len() as f64;
     let together = evidences.iter().sum::<f64>().max(kept);
     let numbers: usize = named.iter().map(|named| named.score.1).sum();
-    let flickers = named.iter().any(|named| named.name == "ambient_flicker");
+    let flickers = named.iter().any(|named| named.name == FLICKER);
     let outvotes = |coordinate: &Located| {
         let is_swing = coordinate.looked > 1.0 && coordinate.coordinate == "time_s";
         let least = match coordinate.coordinate {
@@ -258,8 +255,13 @@ fn is_outvoted(baseline: &Location, named: &[Named], explained: f64) -> bool {
     baseline.columns.iter().any(outvotes)
 }
 
-/// Where a line is that was taken for `named`, but has not one source.
-fn line(found: &Found, named: &Named, shown: &[Shown]) -> Option<Place> {
+/// Where a line is that was taken for a flicker, but has several sources.
+fn several(found: &Found, inflation: f64) -> Option<Place> {
+    let named = found.named.iter().find(|named| named.name == FLICKER)?;
+    let shown = shown(&found.fit, inflation);
+    if is_one(&shown) {
+        return None;
+    }
     let clear = |shown: &Shown| shown.size.0 / shown.size.1;
     let clearest = shown.iter().max_by(|a, b| clear(a).total_cmp(&clear(b)))?;
     let shape = format!("offset, a line of {:.2} Hz that differs from recording to recording", clearest.hz);

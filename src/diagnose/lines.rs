@@ -39,7 +39,7 @@ pub struct SetSeen {
 }
 
 /// A line.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Line {
     /// Cycles a second, or a metre.
     pub frequency: f64,
@@ -47,12 +47,10 @@ pub struct Line {
     pub chi2: f64,
     /// Frequencies that were looked at and could have shown it.
     pub looked: f64,
-    /// Its amplitude in each group, with the standard deviation of that.
-    pub sizes: Vec<(f64, f64)>,
-    /// Where it is in each group: the frequency, or one near it where that group clearly has more.
-    pub own: Vec<f64>,
 }
 
+/// The effect that is a line in time.
+pub const FLICKER: &str = "ambient_flicker";
 /// Lamps flicker with twice the mains' frequency, and not with all others: Hz.
 pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
 /// Periods of an encoder's error: cycles a metre.
@@ -119,25 +117,34 @@ impl Series {
         (0..takes).max_by(|&a, &b| excess[a].total_cmp(&excess[b])).unwrap_or(0)
     }
 
+    /// What the frames of each recording say of the ambient light.
+    fn by_take(&self) -> Vec<Vec<(f64, Sum)>> {
+        let takes = self.frames.iter().map(|frame| frame.0 + 1).max().unwrap_or(0);
+        let of_take = |take: usize| {
+            let frames = self.frames.iter().filter(|frame| frame.0 == take);
+            frames.map(|&(_, time_s, sum)| (time_s, sum)).collect()
+        };
+        (0..takes).map(of_take).collect()
+    }
+
     /// The strongest line of the ambient light in time, with a phase of its own in every recording, Hz.
     pub fn in_time(&self, ends: (f64, f64)) -> Option<Line> {
         // A line that frames see at rest is a drift.
-        let period_s = self.frame_period_s;
-        let takes = self.frames.iter().map(|frame| frame.0 + 1).max()?;
-        let groups: Vec<Vec<(f64, Sum)>> = (0..takes)
-            .map(|take| {
-                let of_take = self.frames.iter().filter(|frame| frame.0 == take);
-                of_take.map(|&(_, time_s, sum)| (time_s, sum)).collect()
-            })
-            .collect();
-        strongest(&groups, ends, period_s)
+        strongest(&self.by_take(), ends, self.frame_period_s)
+    }
+
+    /// Where each recording has a line of the ambient light that is at `frequency_hz` in all, Hz: there or, where it clearly has more, near it.
+    pub fn near(&self, frequency_hz: f64) -> Vec<f64> {
+        let takes = self.by_take();
+        let step = 1.0 / (FINENESS * longest(&takes));
+        takes.iter().map(|take| own(take, frequency_hz, step)).collect()
     }
 
     /// Standard deviation of the amplitude of a line in recording `take`, as a share of the ambient light; nothing where there is none.
     pub fn blur(&self, take: usize) -> Option<f64> {
         let of_take = self.frames.iter().filter(|frame| frame.0 == take);
         let information: f64 = of_take.map(|frame| frame.2.1).sum();
-        (information > 0.0).then(|| (2.0 / information).sqrt())
+        (information > 0.0).then(|| blur(information))
     }
 
     /// The strongest line in the encoder's reading, cycles a metre.
@@ -147,17 +154,22 @@ impl Series {
     }
 }
 
-/// The strongest line of all groups, each with a phase of its own (Lomb 1976, with the information as weights).
-///
-/// Not those that go through whole turns within `period`, or nearly.
-pub fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -> Option<Line> {
+/// The length of the longest group.
+fn longest(groups: &[Vec<(f64, Sum)>]) -> f64 {
     let length = |group: &Vec<(f64, Sum)>| {
         let (first, last) = group
             .iter()
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (at, _)| (low.min(*at), high.max(*at)));
         last - first
     };
-    let longest = groups.iter().map(length).fold(0.0, f64::max);
+    groups.iter().map(length).fold(0.0, f64::max)
+}
+
+/// The strongest line of all groups, each with a phase of its own (Lomb 1976, with the information as weights).
+///
+/// Not those that go through whole turns within `period`, or nearly.
+pub fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -> Option<Line> {
+    let longest = longest(groups);
     if longest <= 0.0 {
         return None;
     }
@@ -181,29 +193,39 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f6
     });
     let powers: Vec<f64> = powers.collect();
     let best = (0..count).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
-    let frequency = low + best as f64 * step;
-    let size = |group: &Vec<(f64, Sum)>| {
-        let mut power = [0.0];
-        add_powers(group, frequency, step, &mut power);
-        let information: f64 = group.iter().map(|(_, (_, information))| information).sum();
-        // Sine and cosine have half of it each.
-        ((2.0 * power[0] / information.max(1e-300)).sqrt(), (2.0 / information.max(1e-300)).sqrt())
-    };
-    let sizes = groups.iter().map(size).collect();
+    Some(Line { frequency: low + best as f64 * step, chi2: powers[best], looked: count as f64 })
+}
+
+/// Chi squared that a line of this frequency explains in a group.
+pub fn power(group: &[(f64, Sum)], frequency: f64) -> f64 {
+    let mut power = [0.0];
+    add_powers(group, frequency, 0.0, &mut power);
+    power[0]
+}
+
+/// Chi squared of a group.
+pub fn chi2(group: &[(f64, Sum)]) -> f64 {
+    let informed = group.iter().filter(|(_, sum)| sum.1 > 0.0);
+    informed.map(|(_, (score, information))| score * score / information).sum()
+}
+
+/// Standard deviation of a line's amplitude where there is so much information: sine and cosine have half of it each.
+pub fn blur(information: f64) -> f64 {
+    (2.0 / information).sqrt()
+}
+
+/// Where a group has a line that is at `frequency` in all: there, or near it where this group clearly has more.
+fn own(group: &[(f64, Sum)], frequency: f64, step: f64) -> f64 {
     let window = (MAINS_OFF * frequency / step).floor();
-    let own = |group: &Vec<(f64, Sum)>| {
-        let low = frequency - window * step;
-        let mut powers = vec![0.0; 2 * window as usize + 1];
-        add_powers(group, low, step, &mut powers);
-        let common = powers[window as usize];
-        let best = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b])).unwrap_or(0);
-        let seen = group.iter().filter(|(_, sum)| sum.1 > 0.0).map(|(_, sum)| sum.0 * sum.0 / sum.1);
-        // More noise than was stated makes more of all frequencies.
-        let noise = (seen.clone().sum::<f64>() / seen.count().max(1) as f64).max(1.0);
-        if powers[best] > common + CLEARLY_MORE * noise { low + best as f64 * step } else { frequency }
-    };
-    let own = groups.iter().map(own).collect();
-    Some(Line { frequency, chi2: powers[best], looked: count as f64, sizes, own })
+    let low = frequency - window * step;
+    let mut powers = vec![0.0; 2 * window as usize + 1];
+    add_powers(group, low, step, &mut powers);
+    let common = powers[window as usize];
+    let best = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b])).unwrap_or(0);
+    let seen = group.iter().filter(|(_, sum)| sum.1 > 0.0).count();
+    // More noise than was stated makes more of all frequencies.
+    let noise = (chi2(group) / seen.max(1) as f64).max(1.0);
+    if powers[best] > common + CLEARLY_MORE * noise { low + best as f64 * step } else { frequency }
 }
 
 /// Chi squared by which noise as it was stated hardly ever makes a line stronger nearby.

@@ -5,7 +5,7 @@ use super::codes::Codes;
 use super::columns::Tangents;
 use super::coordinates::{COORDINATES, View};
 use super::data::Data;
-use super::evidence::{Block, Evidence};
+use super::evidence::{Block, Evidence, Greatest};
 use super::fit::Fit;
 use super::gram::{Gram, Noise, Projected, Whitened};
 use super::parts::parts;
@@ -46,8 +46,8 @@ pub struct Location {
 type Seen = (Clusters, Profiles, Codes);
 
 impl Located {
-    /// A wave, the strongest of so many that were `looked` at.
-    fn wave(coordinate: &'static str, shape: String, ln_bayes: f64, chi2: (f64, usize), looked: f64) -> Self {
+    /// A wave, the strongest of those that were looked at.
+    fn wave(coordinate: &'static str, shape: String, Greatest { ln_bayes, chi2, looked }: Greatest) -> Self {
         Self { coordinate, shape, ln_bayes, chi2, looked }
     }
 }
@@ -89,15 +89,15 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     columns.extend(clusters.waves().into_iter().map(|(level, wave)| {
         let name = level.name();
         let shape = format!("a wave of {:.1} {name}s, {:+.3} Hz", wave.lines * every, wave.hz);
-        Located::wave(name, shape, wave.ln_bayes, wave.chi2, wave.looked)
+        Located::wave(name, shape, wave.found)
     }));
     columns.extend(clusters.swings().into_iter().map(|swing| {
         let shape = format!("{}, a swing of {:.3} Hz", swing.mode, swing.hz);
-        Located::wave("time_s", shape, swing.ln_bayes, swing.chi2, swing.looked)
+        Located::wave("time_s", shape, swing.found)
     }));
     columns.extend(codes.strongest().map(|wave| {
         let shape = format!("with a period of {:.1} DN", wave.period_dn);
-        Located::wave("code", shape, wave.ln_bayes, (wave.chi2, 2), wave.looked)
+        Located::wave("code", shape, wave.found)
     }));
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
     Location {

@@ -1,7 +1,7 @@
 //! What may be added to the baseline: effects with values, which of them are fitted, and to which recordings they belong.
 
 use super::data::Data;
-use super::lines::{FLICKER_HZ, Series};
+use super::lines::{FLICKER, FLICKER_HZ, Series};
 use crate::physics::{Active, Chance, EFFECTS, Effect, Parameter, effects};
 
 /// An effect at certain values, in some of the recordings.
@@ -117,12 +117,9 @@ struct Found {
 /// Effects whose shape is the period of a line.
 type LineShape = fn(&Series) -> Option<Found>;
 const LINES: [(&str, LineShape); 2] = [
-    ("ambient_flicker", |series| {
-        series.in_time(FLICKER_HZ).map(|line| Found {
-            shape: line.frequency,
-            looked: line.looked,
-            own: line.own,
-        })
+    (FLICKER, |series| {
+        let line = series.in_time(FLICKER_HZ)?;
+        Some(Found { shape: line.frequency, looked: line.looked, own: series.near(line.frequency) })
     }),
     ("encoder_cyclic", |series| {
         let line = series.in_position()?;
@@ -132,6 +129,8 @@ const LINES: [(&str, LineShape); 2] = [
 
 /// Effects that a pixel's neighbours make: they cannot be seen where those are not looked at.
 pub const OF_NEIGHBOURS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lateral_motion"];
+/// Effects by which pixels disturb others.
+pub const OF_OTHER_PIXELS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lens_scatter"];
 
 /// All candidates that `data` could need: those of the registry that its camera does not include.
 pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
@@ -240,11 +239,6 @@ fn pieces(
             Piece { effect, values: values.to_vec(), free, takes, finite: false }
         })
         .collect()
-}
-
-/// Whether the effect called `name` is a line in time, or in the encoder's reading.
-pub fn is_line(name: &str) -> bool {
-    LINES.iter().any(|(known, _)| *known == name)
 }
 
 /// The effects of `pieces` that act in recording `take`.

@@ -1,8 +1,8 @@
-//! Whether a line has one source: a lamp flickers equally in all recordings, and with nearly the same frequency.
+//! Whether a flicker has one source: a lamp flickers equally in all recordings, and with nearly the same frequency.
 
 use super::fit::Fit;
-use super::lines::{MAINS_OFF, agree};
-use super::pieces::{Piece, is_line};
+use super::lines::{FLICKER, MAINS_OFF, agree};
+use super::pieces::Piece;
 
 /// In standard deviations: where a line is weaker than this its frequency is noise.
 const SEEN: f64 = 4.0;
@@ -18,10 +18,9 @@ pub struct Shown {
     pub size: (f64, f64),
 }
 
-/// What each recording shows of the line called `name`, where it has pieces of its own in them; noise has `inflation` times the variance that
-/// was stated.
-pub fn shown(fit: &Fit, name: &str, inflation: f64) -> Vec<Shown> {
-    let of_name = |piece: &&Piece| piece.effect.name == name && is_line(name);
+/// What each recording shows of a flicker, where it has pieces of its own in them; noise has `inflation` times the variance that was stated.
+pub fn shown(fit: &Fit, inflation: f64) -> Vec<Shown> {
+    let flickers = |piece: &&Piece| piece.effect.name == FLICKER;
     let of = |piece: &Piece| {
         let values = || piece.effect.parameters.iter().zip(&piece.values);
         let strengths = values().filter(|(parameter, _)| !parameter.is_shape());
@@ -30,7 +29,7 @@ pub fn shown(fit: &Fit, name: &str, inflation: f64) -> Vec<Shown> {
         let hz = values().find(|(parameter, _)| parameter.is_shape()).map(|(_, hz)| *hz)?;
         Some(Shown { take, hz, size: (size, fit.series.blur(take)? * inflation.sqrt()) })
     };
-    fit.pieces.iter().filter(of_name).filter_map(of).collect()
+    fit.pieces.iter().filter(flickers).filter_map(of).collect()
 }
 
 /// Whether what recordings show of a line may be one.

@@ -2,8 +2,8 @@
 //! than a few periods, and errors of single sets say little of them.
 
 use super::clusters::MODES;
-use super::evidence::of_greatest;
-use super::lines::{FINENESS, Sum, agree, strongest};
+use super::evidence::Greatest;
+use super::lines::{FINENESS, Sum, agree, blur, chi2, power, strongest};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Modes that may swing: the first ones of [`MODES`].
@@ -38,12 +38,8 @@ pub struct Swing {
     pub mode: &'static str,
     /// Its frequency, Hz.
     pub hz: f64,
-    /// Evidence, nats.
-    pub ln_bayes: f64,
-    /// Chi squared that it explains, and by how many numbers.
-    pub chi2: (f64, usize),
-    /// Frequencies that were looked at.
-    pub looked: f64,
+    /// What it says among all frequencies.
+    pub found: Greatest,
 }
 
 /// Fewer cycles over the longest recording are a drift.
@@ -118,23 +114,20 @@ impl Swings {
             return None;
         }
         // Errors of sets that are white raise all frequencies of a recording alike.
-        let found = strongest(&takes, ends, 0.0)?;
-        for (take, (size, sigma)) in takes.iter_mut().zip(&found.sizes) {
-            let all: f64 = take.iter().map(|(_, (score, information))| score * score / information).sum();
-            let noise = ((all - (size / sigma).powi(2)) / (take.len() - NUMBERS) as f64).max(1.0);
+        let frequency = strongest(&takes, ends, 0.0)?.frequency;
+        for take in &mut takes {
+            let others = chi2(take) - power(take, frequency);
+            let noise = (others / (take.len() - NUMBERS) as f64).max(1.0);
             take.iter_mut().for_each(|(_, sum)| *sum = (sum.0 / noise, sum.1 / noise));
         }
         let line = strongest(&takes, ends, 0.0)?;
-        let numbers = NUMBERS * takes.len();
-        let ln_bayes = of_greatest(line.chi2, numbers, line.looked);
-        let swing = Swing {
-            mode: MODES[mode],
-            hz: line.frequency,
-            ln_bayes,
-            chi2: (line.chi2, numbers),
-            looked: line.looked,
+        let size = |take: &Take| {
+            let sigma = blur(take.iter().map(|(_, sum)| sum.1).sum());
+            (sigma * power(take, line.frequency).sqrt(), sigma)
         };
-        agree(&line.sizes).then_some(swing)
+        let sizes: Vec<(f64, f64)> = takes.iter().map(size).collect();
+        let found = Greatest::of(line.chi2, NUMBERS * takes.len(), line.looked);
+        agree(&sizes).then_some(Swing { mode: MODES[mode], hz: line.frequency, found })
     }
 }
 
@@ -167,19 +160,20 @@ mod tests {
     #[test]
     fn a_thermostat_is_found_below_the_noise() {
         let found = swing(11, [1.0, 1.0], thermostat).unwrap();
-        assert!(found.ln_bayes > 4.0 && (found.hz - 1.0 / 3.1).abs() < 0.02, "{found:?}");
+        assert!(found.found.ln_bayes > 4.0 && (found.hz - 1.0 / 3.1).abs() < 0.02, "{found:?}");
         assert_eq!(found.mode, "phase");
         // It is as strong in the recording that has more noise, and in both where a set is far above the noise.
-        assert!(swing(12, [0.5, 1.5], thermostat).is_some_and(|found| found.ln_bayes > 4.0));
+        assert!(swing(12, [0.5, 1.5], thermostat).is_some_and(|found| found.found.ln_bayes > 4.0));
         let strong = swing(13, [1.0, 1.0], |take, time_s| 8.0 * thermostat(take, time_s)).unwrap();
-        assert!(strong.ln_bayes > 100.0, "{strong:?}");
+        assert!(strong.found.ln_bayes > 100.0, "{strong:?}");
     }
 
     #[test]
     fn noise_does_not_swing_even_where_there_is_more_of_it() {
         for noise in [[1.0, 1.0], [3.0, 3.0], [1.0, 4.0]] {
-            let alarms = (0..200)
-                .filter(|seed| swing(*seed, noise, |_, _| 0.0).is_some_and(|swing| swing.ln_bayes > 1.0));
+            let alarms = (0..200).filter(|seed| {
+                swing(*seed, noise, |_, _| 0.0).is_some_and(|swing| swing.found.ln_bayes > 1.0)
+            });
             assert_eq!(alarms.count(), 0, "{noise:?}");
         }
     }

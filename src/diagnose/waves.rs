@@ -1,7 +1,7 @@
 //! Waves over rows, or over columns, that move in time: bands that drift as a supply's ripple meets the row clock. Neither a function of the row
 //! nor errors of single rows say much of them; a wave of the right length and speed does.
 
-use super::evidence::of_greatest;
+use super::evidence::Greatest;
 use rayon::prelude::*;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -34,12 +34,8 @@ pub struct Wave {
     pub lines: f64,
     /// Cycles a second at a row; negative where it moves towards smaller numbers.
     pub hz: f64,
-    /// Evidence, nats.
-    pub ln_bayes: f64,
-    /// Chi squared that it explains, and by how many numbers.
-    pub chi2: (f64, usize),
-    /// Waves that were looked at.
-    pub looked: f64,
+    /// What it says among all waves.
+    pub found: Greatest,
 }
 
 /// Cycles over all lines that are looked at: from one, in halves, to so many.
@@ -139,9 +135,7 @@ impl Waves {
         Some(Wave {
             lines: count as f64 / cycles,
             hz: -(at as f64 - half as f64) / (length as f64 * place_s),
-            ln_bayes: of_greatest(chi2, numbers, looked),
-            chi2: (chi2, numbers),
-            looked,
+            found: Greatest::of(chi2, numbers, looked),
         })
     }
 }
@@ -162,7 +156,7 @@ mod tests {
                 waves.add(0, times[frame % 2], 1e-9, &[(1.0, 1.0); ROWS]);
             }
             let wave = waves.strongest();
-            assert!(wave.is_none_or(|wave| wave.looked < 2e6), "{times:?}: {wave:?}");
+            assert!(wave.is_none_or(|wave| wave.found.looked < 2e6), "{times:?}: {wave:?}");
         }
     }
 
@@ -186,7 +180,7 @@ mod tests {
     #[test]
     fn a_band_that_drifts_is_found_below_the_noise() {
         let wave = strongest(1.0, |row, time_s| 0.1 * (TAU * (row / 5.0 - time_s / 3.0)).cos());
-        assert!(wave.ln_bayes > 4.0, "{wave:?}");
+        assert!(wave.found.ln_bayes > 4.0, "{wave:?}");
         assert!((wave.lines - 5.0).abs() < 0.4 && (wave.hz - 1.0 / 3.0).abs() < 0.01, "{wave:?}");
     }
 
@@ -194,7 +188,7 @@ mod tests {
     fn noise_has_no_wave_even_where_rows_have_more_of_it() {
         for noise in [1.0, 5.0] {
             let wave = strongest(noise, |_, _| 0.0);
-            assert!(wave.ln_bayes < 1.0, "{noise}: {wave:?}");
+            assert!(wave.found.ln_bayes < 1.0, "{noise}: {wave:?}");
         }
     }
 }
