@@ -286,3 +286,19 @@ fn formulas_act_after_the_registrys_effects() {
     assert_ne!(signal(&[twice]), signal(&[crosstalk]));
     assert_ne!(doubled, signal(&[]).into_iter().map(|signal| signal + signal).collect::<Vec<_>>());
 }
+
+/// Charge that wanders to neighbours is neither lost nor made, at the sensor's border neither.
+#[test]
+fn charge_that_wanders_is_all_there() {
+    let crosstalk = EFFECTS.iter().find(|effect| effect.name == "charge_crosstalk").unwrap();
+    let of = |values: &[f64]| signal(crosstalk, values, moment(1, 1.4, 0.0, 0.7, true), 0.0);
+    let still = of(&crosstalk.off());
+    for name in ["share", "from_beside", "from_above_and_below", "from_diagonal"] {
+        let mut values = crosstalk.off();
+        values[crosstalk.parameters.iter().position(|parameter| parameter.name == name).unwrap()] = 0.1;
+        let moved = of(&values);
+        assert!(moved.iter().zip(&still).any(|(a, b)| (a - b).abs() > 1.0), "{name}");
+        let (before, after): (f64, f64) = (still.iter().sum(), moved.iter().sum());
+        assert!((after - before).abs() < 1e-9 * before, "{name}: {before} DN, then {after} DN");
+    }
+}

@@ -144,3 +144,37 @@ fn a_weak_pulse_in_one_frame_is_no_other_gain() {
     assert_eq!(names(&verdict), [""; 0], "{verdict:#}");
     assert_eq!(verdict["located"][0]["coordinate"], "frame", "{verdict:#}");
 }
+
+/// Names for one effect in a campaign of all recordings.
+fn names_of(effect: &str) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let all = "four-sweep,four-rail,four-motion,wdft-sweep,wdft-rail,wdft-motion";
+    names(&verdict(&campaign(folder.path(), "16x12", all, &[effect])))
+}
+
+/// Light that falls evenly: a far drift, of which tangents promise more than a fit keeps, is not outvoted by the columns of time.
+#[test]
+fn a_drift_that_goes_on_evenly_is_a_drift() {
+    assert_eq!(names_of("illumination_drift:relative=0.5,time_constant_s=700"), ["illumination_drift"]);
+}
+
+/// Charge that wanders along rows alone: what mixed pixels at two sides do, but on both sides of the edge alike.
+#[test]
+fn charge_that_wanders_along_rows_is_no_mixed_pixel() {
+    assert_eq!(names_of("charge_crosstalk:from_beside=0.005"), ["charge_crosstalk"]);
+}
+
+/// What the form of a strong phase by amplitude leaves is not given to the frequency error that is nearly the same.
+#[test]
+fn a_phase_by_amplitude_is_alone() {
+    assert_eq!(
+        names_of("intensity_related_phase:rad_a_factor_e=0.01,exponent=-1"),
+        ["intensity_related_phase"]
+    );
+}
+
+/// The laser's gain of a frame leaves the ambient light as it is.
+#[test]
+fn a_gain_of_the_lasers_is_a_gain_of_frames() {
+    assert_eq!(names_of("frame_gain:frame_1=0.01,of_own_light=1"), ["frame_gain"]);
+}

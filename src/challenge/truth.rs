@@ -39,8 +39,8 @@ const TRUTHS: &[(&str, &[Row])] = &[
     (
         "illumination_drift",
         &[
-            ("relative", "1", |flaw, _| Some(flaw.size)),
-            ("time_constant_s", "s", |flaw, _| Some(flaws::light_warm_up_s(flaw))),
+            ("relative", "1", |flaw, _| flaws::light_warm_up_s(flaw).map(|_| flaw.size)),
+            ("time_constant_s", "s", |flaw, _| flaws::light_warm_up_s(flaw)),
         ],
     ),
     // A minute has 60 s.

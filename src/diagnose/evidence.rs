@@ -1,6 +1,7 @@
 //! Which candidates the data ask for: Bayes factors from score and information, no refit needed.
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// A candidate's columns in some variant of its shape: their numbers.
@@ -20,12 +21,15 @@ pub struct Block {
 #[derive(Debug, Clone)]
 struct White {
     basis: DMatrix<f64>,
+    /// The whole information times the basis.
+    informed: DMatrix<f64>,
     score: DVector<f64>,
 }
 
 /// Score and information of all blocks.
 pub struct Evidence<'a> {
-    matrix: &'a DMatrix<f64>,
+    /// Columns in all.
+    size: usize,
     blocks: &'a [Block],
     white: Vec<Option<White>>,
     candidates: f64,
@@ -182,10 +186,10 @@ impl<'a> Evidence<'a> {
                 }
             }
             let score = basis.tr_mul(vector);
-            Some(White { basis, score })
+            Some(White { informed: matrix * &basis, basis, score })
         };
         let white = blocks.iter().map(white).collect();
-        Self { matrix, blocks, white, candidates: candidates as f64 }
+        Self { size: matrix.nrows(), blocks, white, candidates: candidates as f64 }
     }
 
     /// Score statistic of a block: chi squared, and its degrees of freedom. Nothing where it cannot be seen.
@@ -196,7 +200,8 @@ impl<'a> Evidence<'a> {
     /// Information, score, and the place of each block among them, of the `chosen` blocks together, in coordinates in which each block's own
     /// information is the identity. A block that cannot be seen has no place among them: an empty one.
     pub fn joint(&self, chosen: &[usize]) -> (DMatrix<f64>, DVector<f64>, Vec<Range<usize>>) {
-        let none = White { basis: DMatrix::zeros(self.matrix.nrows(), 0), score: DVector::zeros(0) };
+        let nothing = DMatrix::zeros(self.size, 0);
+        let none = White { basis: nothing.clone(), informed: nothing, score: DVector::zeros(0) };
         self.together(
             &chosen.iter().map(|&block| self.white[block].as_ref().unwrap_or(&none)).collect::<Vec<_>>(),
         )
@@ -213,7 +218,7 @@ impl<'a> Evidence<'a> {
             score.rows_mut(row, width).copy_from(&part.score);
             let mut column = 0;
             for other in &parts[..number] {
-                let cross = part.basis.tr_mul(&(self.matrix * &other.basis));
+                let cross = part.basis.tr_mul(&other.informed);
                 inner.view_mut((row, column), (width, other.score.len())).copy_from(&cross);
                 inner.view_mut((column, row), (other.score.len(), width)).copy_from(&cross.transpose());
                 column += other.score.len();
@@ -259,14 +264,15 @@ impl<'a> Evidence<'a> {
     /// All single blocks and all pairs of different candidates, best first.
     pub fn models(&self) -> Vec<Model> {
         let seen: Vec<usize> = (0..self.blocks.len()).filter(|&block| self.white[block].is_some()).collect();
+        let candidate = |block: usize| self.blocks[block].candidate;
+        let beside = |(place, &one): (usize, &usize)| {
+            let others = seen[place + 1..].iter().filter(|&&other| candidate(other) != candidate(one));
+            others.map(|&other| vec![one, other]).collect::<Vec<_>>()
+        };
+        let alone = seen.iter().map(|&block| vec![block]);
+        let all: Vec<Vec<usize>> = alone.chain(seen.iter().enumerate().flat_map(beside)).collect();
         let model = |blocks: Vec<usize>| Model { ln_bayes: self.ln_bayes(&blocks), blocks };
-        let mut models: Vec<Model> = seen.iter().map(|&block| model(vec![block])).collect();
-        // Of each candidate the best variant, and the best beside each other one.
-        for (place, &one) in seen.iter().enumerate() {
-            let others =
-                seen[place + 1..].iter().filter(|&&o| self.blocks[o].candidate != self.blocks[one].candidate);
-            models.extend(others.map(|&other| model(vec![one, other])));
-        }
+        let mut models: Vec<Model> = all.into_par_iter().map(model).collect();
         models.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
         models
     }

@@ -145,7 +145,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // so does a random effect.
     let is_far = found.baseline.is_far_from(&found.fit);
     let are_raised = random.is_some() || random::noise(data, &end).is_some();
-    let simpler = !is_far && !are_raised && is_outvoted(&baseline, &named, explained);
+    let simpler = !is_far && !are_raised && is_outvoted(&baseline, &found, &named, explained);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
     if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random.or(excess) {
@@ -228,14 +228,19 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
 ///
 /// A name must say more than that by a nat, and each further one by as much as it must by than a rival. Columns that explain no more, and are no fewer
 /// numbers, are only another form of the names.
-fn is_outvoted(baseline: &Location, named: &[Named], explained: f64) -> bool {
+fn is_outvoted(baseline: &Location, found: &Found, named: &[Named], explained: f64) -> bool {
     let Some(first) = named.first() else { return false };
     let mut evidences: Vec<f64> = named.iter().map(|named| named.ln_bayes).collect();
     // Of two that were found together it is that of both.
     evidences.dedup();
     // A fit may keep more than tangents promise.
     let kept = 0.5 * explained - OCCAM_NATS * named.len() as f64;
-    let together = evidences.iter().sum::<f64>().max(kept);
+    // Columns are tangents: what one name promises by its own counts as much as what its fit keeps.
+    let promised = match named {
+        [single] => found.alone.iter().find(|alone| alone.0 == single.name).map_or(0.0, |alone| alone.3),
+        _ => 0.0,
+    };
+    let together = evidences.iter().sum::<f64>().max(kept).max(promised);
     let numbers: usize = named.iter().map(|named| named.score.1).sum();
     let flickers = named.iter().any(|named| named.name == FLICKER);
     let outvotes = |coordinate: &Located| {

@@ -249,15 +249,28 @@ impl Pass {
         (0..self.blocks.len()).filter(is_near).map(|other| self.name(other, candidates).to_owned()).collect()
     }
 
-    /// The model to be fitted next, `beside` so many effects, if it explains more than what is `tolerated`; and, where that is only a part of the
-    /// best one, the whole.
-    pub fn next(&self, beside: usize, tolerated: f64, trust: bool) -> Option<(Model, Model)> {
+    /// The model to be fitted next, `beside` so many effects, if it explains more than what is `tolerated`, or clearly something, where forms are
+    /// trusted, and it is no candidate that is alike to those; and, where that is only a part of the best one, the whole.
+    pub fn next(
+        &self,
+        beside: usize,
+        tolerated: f64,
+        trust: bool,
+        is_alike: &dyn Fn(usize) -> bool,
+    ) -> Option<(Model, Model)> {
         let threshold = if beside > 0 { FURTHER_THRESHOLD } else { THRESHOLD };
         let explained =
             |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
         let enough = |model: &&Model| {
             let most = model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max);
-            let trusted = trust && model.ln_bayes > CLEAR_NATS && most > TRUSTED_SHARE * tolerated;
+            // Of two at once neither is what a form leaves.
+            let is_alone = model.blocks.len() == 1 || beside == 0;
+            let is_told = model.blocks.iter().all(|&block| !is_alike(self.blocks[block].candidate));
+            let trusted = trust
+                && is_alone
+                && is_told
+                && model.ln_bayes > CLEAR_NATS
+                && most > TRUSTED_SHARE * tolerated;
             model.ln_bayes > threshold && (most > tolerated || trusted)
         };
         let best = self.models.iter().find(enough)?;

@@ -12,6 +12,8 @@ use std::collections::BTreeSet;
 const MOST_EFFECTS: usize = 4;
 /// Beside so many, what the forms of these may leave is no further one.
 const MOST_TRUSTED: usize = 2;
+/// Nor one that alone, at the baseline, would have explained this share of what the first one did.
+const ALIKE_SHARE: f64 = 0.5;
 /// Without a camera's description much is left out at once: so much of what their forms may leave keeps further effects out.
 const UNDESCRIBED: f64 = 0.1;
 /// A fit keeps at least so much of what the tangents promise.
@@ -70,7 +72,7 @@ fn tolerated(named: &[Named]) -> f64 {
 ///
 /// With `trust` in the forms of effects, one that explains less than the others' forms may leave is named nevertheless, on clear evidence.
 pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
-    let mut alone = Vec::new();
+    let mut alone: Vec<(&'static str, f64, usize, f64)> = Vec::new();
     let mut current = baseline.clone();
     let mut named: Vec<Named> = Vec::new();
     let mut first: Option<Pass> = None;
@@ -80,8 +82,13 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
         // Far from the baseline forms are not that well known.
         let is_far = baseline.is_far_from(&current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
-        let next =
-            pass.next(named.len(), share * tolerated(&named), trust && !is_far && named.len() < MOST_TRUSTED);
+        // What would have explained most of the first one is what the form of that leaves.
+        let before = |name: &str| alone.iter().find(|row| row.0 == name).map_or(0.0, |row| row.1);
+        let named_before = named.first().map_or(f64::INFINITY, |named| before(named.name));
+        let is_alike =
+            |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * named_before;
+        let is_trusted = trust && !is_far && named.len() < MOST_TRUSTED;
+        let next = pass.next(named.len(), share * tolerated(&named), is_trusted, &is_alike);
         first.get_or_insert_with(|| {
             alone = pass.alone(&candidates);
             pass.clone()

@@ -74,7 +74,12 @@ impl Parameter {
     /// A shape that is one of `shapes`, the first of them as a rule; one above 1 is how many of the strengths there are.
     pub const fn choice(name: &'static str, unit: &'static str, shapes: &'static [f64]) -> Self {
         let (first, last) = (shapes[0], shapes[shapes.len() - 1]);
-        Self { is_choice: true, typical: last, ..Self::shape(name, unit, first, (first, last), shapes) }
+        let (mut low, mut high, mut number) = (first, first, 1);
+        while number < shapes.len() {
+            (low, high) = (low.min(shapes[number]), high.max(shapes[number]));
+            number += 1;
+        }
+        Self { is_choice: true, typical: last, ..Self::shape(name, unit, first, (low, high), shapes) }
     }
 
     /// Least and greatest value where signals go up to `full_scale_dn`.

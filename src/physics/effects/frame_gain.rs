@@ -6,11 +6,12 @@ const fn gain(name: &'static str) -> Parameter {
     Parameter::strength(name, "1", 0.0, (-0.3, 0.3), 0.005)
 }
 
-/// Relative gain of frame 0, 1, … of a set, less 1; frames beyond the last have none.
+/// Relative gain of frame 0, 1, … of a set, less 1; frames beyond the last have none. It is that of all light (0), as an exposure's, or of the camera's
+/// own alone (1), as its source's.
 pub static EFFECT: Effect = Effect {
     name: "frame_gain",
     sentence: "Single frames of a set are brighter or darker as a whole, in every set alike (exposure or source power by phase step).",
-    reference: "I_n -> (1 + g_n) I_n",
+    reference: "I_n -> (1 + g_n) I_n, or B + (1 + g_n) (I_n - B) with the ambient light B",
     parameters: &[
         gain("frame_0"),
         gain("frame_1"),
@@ -76,6 +77,7 @@ pub static EFFECT: Effect = Effect {
         gain("frame_61"),
         gain("frame_62"),
         gain("frame_63"),
+        Parameter::choice("of_own_light", "1", &[0.0, 1.0]),
     ],
     place: Place::Correlation,
     chance: Chance::None,
@@ -83,7 +85,13 @@ pub static EFFECT: Effect = Effect {
     act: Act::Code(act),
 };
 
+/// Frames that have a gain.
+const FRAMES: usize = 64;
+
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let factor = 1.0 + values.get(exposure.moment.frame).copied().unwrap_or(0.0);
-    exposure.signal_dn.iter_mut().for_each(|signal| *signal *= factor);
+    let Some(gain) = values[..FRAMES].get(exposure.moment.frame).filter(|gain| **gain != 0.0) else { return };
+    let of_own_light = values[FRAMES] > 0.5;
+    for (signal, ambient) in exposure.signal_dn.iter_mut().zip(exposure.ambient_dn.iter()) {
+        *signal += gain * if of_own_light { *signal - ambient } else { *signal };
+    }
 }

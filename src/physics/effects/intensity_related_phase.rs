@@ -2,12 +2,16 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
-/// Phase a factor of e in amplitude.
+/// Phase a factor of e in amplitude, at the reference; in proportion to the logarithm of the amplitude (0), to the amplitude itself (1), or to one
+/// over it (-1) or its root (-0.5).
 pub static EFFECT: Effect = Effect {
     name: "intensity_related_phase",
     sentence: "The phase depends on the amplitude (driver or pixel settling): dark targets look nearer or farther.",
-    reference: "Lindner, Kolb 2007; phi -> phi + kappa ln A",
-    parameters: &[Parameter::strength("rad_a_factor_e", "rad", 0.0, (-0.5, 0.5), 0.01)],
+    reference: "Lindner, Kolb 2007; phi -> phi + kappa ln A; or kappa ((A / A0)^p - 1) / p",
+    parameters: &[
+        Parameter::strength("rad_a_factor_e", "rad", 0.0, (-0.5, 0.5), 0.01),
+        Parameter::choice("exponent", "1", &[0.0, -0.5, -1.0, 1.0]),
+    ],
     place: Place::Waveform,
     chance: Chance::None,
     looks_back: false,
@@ -18,9 +22,16 @@ pub static EFFECT: Effect = Effect {
 const REFERENCE_DN: f64 = 300.0;
 
 fn act(values: &[f64], exposure: &mut Exposure) {
+    let exponent = values[1];
     for (phase, &amplitude) in exposure.phase_rad.iter_mut().zip(&exposure.amplitude_dn) {
         if amplitude > 0.0 {
-            *phase += values[0] * libm::log(amplitude / REFERENCE_DN);
+            let level = amplitude / REFERENCE_DN;
+            let power = if exponent == 0.0 {
+                libm::log(level)
+            } else {
+                (libm::pow(level, exponent) - 1.0) / exponent
+            };
+            *phase += values[0] * power;
         }
     }
 }

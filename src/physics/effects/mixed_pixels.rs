@@ -6,14 +6,15 @@ const fn share(name: &'static str) -> Parameter {
     Parameter::strength(name, "1", 0.0, (0.0, 0.6), 0.2)
 }
 
-/// Share of such a pixel that sees what its neighbours beyond the edge see: of all of them, and what those of the target, and of the
-/// background, at each of the target's sides have more. A side that ends within a pixel mixes one of the two.
+/// Share of such a pixel that sees what its neighbours beyond the edge see: of the target's pixels, and of the background's; or of those at each of
+/// the target's sides alone. A side that ends within a pixel mixes one of the two.
 pub static EFFECT: Effect = Effect {
     name: "mixed_pixels",
     sentence: "Pixels at the target's edge see target and background at once (mixed or flying pixels).",
     reference: "Lefloch et al. 2013; phasors add with the shares of the area",
     parameters: &[
-        share("share"),
+        share("target_share"),
+        share("background_share"),
         share("target_left").instead(),
         share("target_right").instead(),
         share("target_top").instead(),
@@ -39,15 +40,17 @@ fn side(is_target: bool, pixel: usize, beyond: usize, width: usize) -> usize {
         (true, false) => 2,
         (false, false) => 3,
     };
-    1 + direction + if is_target { 0 } else { 4 }
+    2 + direction + if is_target { 0 } else { 4 }
 }
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let own = exposure.signal_dn.clone();
     let width = exposure.pixels.geometry.width;
     for (number, &(pixel, beyond)) in exposure.pixels.edges.iter().enumerate() {
-        let of_side = values[side(exposure.pixels.target[pixel], pixel, beyond, width)];
-        let share = (values[0] + of_side) / exposure.pixels.edge_counts[number];
+        let is_target = exposure.pixels.target[pixel];
+        let of_all = values[usize::from(!is_target)];
+        let of_side = values[side(is_target, pixel, beyond, width)];
+        let share = (of_all + of_side) / exposure.pixels.edge_counts[number];
         exposure.signal_dn[pixel] += share * (own[beyond] - own[pixel]);
     }
 }

@@ -37,15 +37,16 @@ fn image_lag(flaw: &Flaw, before: &[f64], image: &mut [f64]) {
     }
 }
 
-/// Charge wanders to the four neighbours.
+/// Charge wanders to the four neighbours; in every third camera only to those in the same row, as along a line that runs there.
 fn charge_crosstalk(flaw: &Flaw, _: &Moment, scene: &Scene, image: &mut [f64]) {
     let width = scene.geometry.width;
     let before = image.to_vec();
+    let is_along_rows = flaw.draws[7] < 1.0 / 3.0;
     for (pixel, charge) in image.iter_mut().enumerate() {
         let column = pixel % width;
         let neighbours = [
-            pixel.checked_sub(width),
-            Some(pixel + width),
+            pixel.checked_sub(width).filter(|_| !is_along_rows),
+            Some(pixel + width).filter(|_| !is_along_rows),
             (column > 0).then(|| pixel - 1),
             (column + 1 < width).then_some(pixel + 1),
         ];

@@ -76,9 +76,11 @@ fn encoder_cyclic(flaw: &Flaw, _: &Take, moment: &mut Moment) {
     moment.velocity_m_s *= velocity;
 }
 
-/// Each frame of a sequence has a gain of its own, of all that it sees.
+/// Each frame of a sequence has a gain of its own, of all that it sees; or of the laser alone, whose driver knows the step.
 fn frame_gain(flaw: &Flaw, _: &Take, moment: &mut Moment) {
-    moment.gain *= 1.0 + flaw.size * flaw.normal(0, moment.frames, moment.frame);
+    let factor = 1.0 + flaw.size * flaw.normal(0, moment.frames, moment.frame);
+    let of = if flaw.draws[7] < 0.7 { &mut moment.gain } else { &mut moment.light };
+    *of *= factor;
 }
 
 /// The laser's power sags after the start of each set, as its capacitor is drained.
@@ -87,15 +89,18 @@ fn illumination_droop(flaw: &Flaw, _: &Take, moment: &mut Moment) {
     moment.light *= 1.0 - flaw.size * (1.0 - (-moment.within_s.max(0.0) / time_constant_s).exp());
 }
 
-/// Time constant of an illumination drift, s.
-pub fn light_warm_up_s(flaw: &Flaw) -> f64 {
-    flaw.draw(0, 8.0, 60.0)
+/// Time constant of an illumination drift, s; none where it goes on evenly.
+pub fn light_warm_up_s(flaw: &Flaw) -> Option<f64> {
+    (flaw.draws[7] < 0.5).then(|| flaw.draw(0, 8.0, 60.0))
 }
 
-/// The laser's power falls as it warms up after the start of each recording.
+/// The laser's power falls as it warms up after the start of each recording, or evenly, a share in each minute.
 fn illumination_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
-    let time_constant_s = light_warm_up_s(flaw);
-    moment.light *= 1.0 - flaw.size * (1.0 - (-moment.time_s / time_constant_s).exp());
+    let share = match light_warm_up_s(flaw) {
+        Some(time_constant_s) => 1.0 - (-moment.time_s / time_constant_s).exp(),
+        None => moment.time_s / 60.0,
+    };
+    moment.light *= (1.0 - flaw.size * share).max(0.0);
 }
 
 /// Daylight changes steadily, by its size in a minute.
