@@ -19,6 +19,24 @@ impl Geometry {
     pub fn row_column(self, pixel: usize) -> (usize, usize) {
         (pixel / self.width, pixel % self.width)
     }
+
+    /// The up to four neighbours of a pixel: left, right, above, below.
+    pub fn beside(self, pixel: usize) -> [Option<usize>; 4] {
+        let (row, column) = self.row_column(pixel);
+        [
+            (column > 0).then(|| pixel - 1),
+            (column + 1 < self.width).then(|| pixel + 1),
+            (row > 0).then(|| pixel - self.width),
+            (row + 1 < self.height).then(|| pixel + self.width),
+        ]
+    }
+
+    /// The up to four neighbours at its corners.
+    pub fn diagonal(self, pixel: usize) -> [Option<usize>; 4] {
+        let [left, right, above, below] = self.beside(pixel);
+        let at = |row: Option<usize>, column: Option<usize>| Some(row? + column? - pixel);
+        [at(above, left), at(above, right), at(below, left), at(below, right)]
+    }
 }
 
 /// Raw codes of whole sets, in C order `[set, frame, row, column]`, in DN.

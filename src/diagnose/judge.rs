@@ -144,7 +144,8 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // Far from the baseline columns promise more than there is, and of several effects none is sure. Noise that samples share raises all columns, and
     // so does a random effect.
     let is_far = found.baseline.is_far_from(&found.fit);
-    let are_raised = random.is_some() || random::noise(data, &end).is_some();
+    let shared = random::noise(data, &end);
+    let are_raised = random.is_some() || shared.is_some();
     let simpler = !is_far && !are_raised && is_outvoted(&baseline, &found, &named, explained);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let mut strength = None;
@@ -205,7 +206,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         places.clear();
     }
     let fit = asserted(data, &found, &named, noise);
-    let shared_noise = random::noise(data, &end).filter(|noise| noise.level != Level::Pixel).map(words);
+    let shared_noise = shared.filter(|noise| noise.level != Level::Pixel).map(words);
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
     let locations = [baseline, after];
     Judgement {
@@ -237,7 +238,7 @@ fn is_outvoted(baseline: &Location, found: &Found, named: &[Named], explained: f
     let kept = 0.5 * explained - OCCAM_NATS * named.len() as f64;
     // Columns are tangents: what one name promises by its own counts as much as what its fit keeps.
     let promised = match named {
-        [single] => found.alone.iter().find(|alone| alone.0 == single.name).map_or(0.0, |alone| alone.3),
+        [single] => found.alone(single.name).map_or(0.0, |alone| alone.ln_bayes),
         _ => 0.0,
     };
     let together = evidences.iter().sum::<f64>().max(kept).max(promised);

@@ -43,7 +43,7 @@ pub use held_out::{Agreement, HeldOut};
 pub use judge::{Judgement, Place, Verdict};
 pub use library::library;
 pub use location::{Located, Location};
-pub use pass::Detectable;
+pub use pass::{Alone, Detectable};
 pub use profiles::{Point, Profile};
 pub use search::{Found, Named};
 pub use simpler::Simpler;

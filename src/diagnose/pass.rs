@@ -45,6 +45,19 @@ pub struct Detectable {
     pub value: f64,
 }
 
+/// A candidate by itself, in its best variant.
+#[derive(Debug, Clone, Copy)]
+pub struct Alone {
+    /// The effect.
+    pub name: &'static str,
+    /// Score statistic.
+    pub chi2: f64,
+    /// Its degrees of freedom.
+    pub degrees: usize,
+    /// Evidence, nats.
+    pub ln_bayes: f64,
+}
+
 /// What one pass says of all candidates.
 #[derive(Debug, Clone, Default)]
 pub struct Pass {
@@ -249,26 +262,21 @@ impl Pass {
         (0..self.blocks.len()).filter(is_near).map(|other| self.name(other, candidates).to_owned()).collect()
     }
 
-    /// The model to be fitted next, `beside` so many effects, if it explains more than what is `tolerated`, or clearly something, where forms are
-    /// trusted, and it is no candidate that is alike to those; and, where that is only a part of the best one, the whole.
+    /// The model to be fitted next, `beside` so many effects, if it explains more than what is `tolerated`, or, alone, clearly something and is a
+    /// candidate that is trusted; and, where that is only a part of the best one, the whole.
     pub fn next(
         &self,
         beside: usize,
         tolerated: f64,
-        trust: bool,
-        is_alike: &dyn Fn(usize) -> bool,
+        is_trusted: &dyn Fn(usize) -> bool,
     ) -> Option<(Model, Model)> {
         let threshold = if beside > 0 { FURTHER_THRESHOLD } else { THRESHOLD };
         let explained =
             |block: usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
         let enough = |model: &&Model| {
             let most = model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max);
-            // Of two at once neither is what a form leaves.
-            let is_alone = model.blocks.len() == 1 || beside == 0;
-            let is_told = model.blocks.iter().all(|&block| !is_alike(self.blocks[block].candidate));
-            let trusted = trust
-                && is_alone
-                && is_told
+            // Of two at once neither is trusted to be more than what a form leaves.
+            let trusted = matches!(model.blocks[..], [block] if is_trusted(self.blocks[block].candidate))
                 && model.ln_bayes > CLEAR_NATS
                 && most > TRUSTED_SHARE * tolerated;
             model.ln_bayes > threshold && (most > tolerated || trusted)
@@ -304,13 +312,18 @@ impl Pass {
     }
 
     /// Each candidate by itself, in its best variant.
-    pub fn alone(&self, candidates: &[Candidate]) -> Vec<(&'static str, f64, usize, f64)> {
+    pub fn alone(&self, candidates: &[Candidate]) -> Vec<Alone> {
         let mut alone = Vec::new();
         for (number, candidate) in candidates.iter().enumerate() {
             let of = (0..self.blocks.len()).filter(|&block| self.blocks[block].candidate == number);
             if let Some(best) = of.max_by(|&a, &b| self.singles[a].total_cmp(&self.singles[b])) {
                 let (chi2, degrees) = self.scores[best].unwrap_or((0.0, 0));
-                alone.push((candidate.effect.name, chi2, degrees, self.singles[best]));
+                alone.push(Alone {
+                    name: candidate.effect.name,
+                    chi2,
+                    degrees,
+                    ln_bayes: self.singles[best],
+                });
             }
         }
         alone

@@ -4,7 +4,7 @@ use super::data::Data;
 use super::evidence::Model;
 use super::fit::{Fit, fit};
 use super::gram::Noise;
-use super::pass::{Detectable, Pass, THRESHOLD};
+use super::pass::{Alone, Detectable, Pass, THRESHOLD};
 use super::pieces::{Piece, candidates, tolerance};
 use super::simpler::Simpler;
 use std::collections::BTreeSet;
@@ -49,13 +49,18 @@ pub struct Found {
     pub invisible: Vec<&'static str>,
     /// Smallest strengths that would be found.
     pub detectable: Vec<Detectable>,
-    /// Score statistic of each candidate alone at the baseline, its degrees of freedom, evidence: for `ruled_out`.
-    pub alone: Vec<(&'static str, f64, usize, f64)>,
+    /// Each candidate alone at the baseline.
+    pub alone: Vec<Alone>,
     /// What simpler methods name at the baseline.
     pub simpler: Simpler,
 }
 
 impl Found {
+    /// The candidate `name` alone at the baseline; nothing where it is none.
+    pub fn alone(&self, name: &str) -> Option<&Alone> {
+        self.alone.iter().find(|alone| alone.name == name)
+    }
+
     /// Whether an effect is named that explains less than the forms of those before it may leave.
     pub fn trusts_forms(&self) -> bool {
         let is_small = |(number, named): (usize, &Named)| named.score.0 < tolerated(&self.named[..number]);
@@ -72,7 +77,7 @@ fn tolerated(named: &[Named]) -> f64 {
 ///
 /// With `trust` in the forms of effects, one that explains less than the others' forms may leave is named nevertheless, on clear evidence.
 pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
-    let mut alone: Vec<(&'static str, f64, usize, f64)> = Vec::new();
+    let mut alone: Vec<Alone> = Vec::new();
     let mut current = baseline.clone();
     let mut named: Vec<Named> = Vec::new();
     let mut first: Option<Pass> = None;
@@ -83,12 +88,13 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
         let is_far = baseline.is_far_from(&current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
         // What would have explained most of the first one is what the form of that leaves.
-        let before = |name: &str| alone.iter().find(|row| row.0 == name).map_or(0.0, |row| row.1);
-        let named_before = named.first().map_or(f64::INFINITY, |named| before(named.name));
-        let is_alike =
-            |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * named_before;
-        let is_trusted = trust && !is_far && named.len() < MOST_TRUSTED;
-        let next = pass.next(named.len(), share * tolerated(&named), is_trusted, &is_alike);
+        let before =
+            |name: &str| alone.iter().find(|alone| alone.name == name).map_or(0.0, |alone| alone.chi2);
+        let of_first = named.first().map_or(f64::INFINITY, |named| before(named.name));
+        let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
+        let trusts = trust && !is_far && named.len() < MOST_TRUSTED;
+        let is_trusted = |candidate: usize| trusts && !is_alike(candidate);
+        let next = pass.next(named.len(), share * tolerated(&named), &is_trusted);
         first.get_or_insert_with(|| {
             alone = pass.alone(&candidates);
             pass.clone()

@@ -9,6 +9,7 @@ use super::held_out::{HeldOut, held_out};
 use super::judge::{Judgement, Place, Verdict, judge};
 use super::next::next;
 use super::noise::measured;
+use super::pass::Alone;
 use super::pieces::{OF_NEIGHBOURS, Piece};
 use super::search::Named;
 use super::settle::{outlying, with_mask};
@@ -194,7 +195,7 @@ fn word(verdict: Verdict) -> &'static str {
 
 fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     let Judgement { verdict, found, named, .. } = judgement;
-    let best_alone = found.alone.iter().map(|alone| alone.3).fold(f64::NEG_INFINITY, f64::max);
+    let best_alone = found.alone.iter().map(|alone| alone.ln_bayes).fold(f64::NEG_INFINITY, f64::max);
     let nats = judgement.places.iter().map(|place| place.ln_bayes).fold(best_alone, f64::max);
     let nats = named.iter().map(|named| named.ln_bayes).fold(nats, f64::max);
     let is_clean = *verdict == Verdict::Clean;
@@ -360,14 +361,16 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRo
 /// Every other candidate, and what speaks against it.
 fn ruled_out(judgement: &Judgement) -> Vec<RuledOut> {
     let Judgement { found, named, verdict, .. } = judgement;
-    let best = found.alone.iter().map(|alone| alone.1).fold(0.0, f64::max);
+    let best = found.alone.iter().map(|alone| alone.chi2).fold(0.0, f64::max);
     let others = found.alone.iter().filter(|alone| {
-        !named.iter().any(|named| named.name == alone.0 || named.rivals.iter().any(|rival| rival == alone.0))
+        !named
+            .iter()
+            .any(|named| named.name == alone.name || named.rivals.iter().any(|rival| rival == alone.name))
     });
     others
-        .filter(|alone| !found.invisible.contains(&alone.0))
-        .map(|&(name, chi2, degrees, nats)| {
-            let by = if *verdict == Verdict::Clean || nats < 0.0 {
+        .filter(|alone| !found.invisible.contains(&alone.name))
+        .map(|&Alone { name, chi2, degrees, ln_bayes }| {
+            let by = if *verdict == Verdict::Clean || ln_bayes < 0.0 {
                 format!("no trace: chi squared {chi2:.1} for {degrees} numbers")
             } else {
                 format!(

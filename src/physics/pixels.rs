@@ -46,21 +46,10 @@ impl Pixels {
         (share(column, width), share(row, height))
     }
 
-    fn beside_in(geometry: Geometry, pixel: usize) -> [Option<usize>; 4] {
-        let Geometry { width, height } = geometry;
-        let (row, column) = geometry.row_column(pixel);
-        [
-            (column > 0).then(|| pixel - 1),
-            (column + 1 < width).then(|| pixel + 1),
-            (row > 0).then(|| pixel - width),
-            (row + 1 < height).then(|| pixel + width),
-        ]
-    }
-
     /// The pairs of [`Pixels::edges`] of a mask.
     pub fn edges_of(geometry: Geometry, target: &[bool]) -> Vec<(usize, usize)> {
         let pairs = |pixel: usize| {
-            let beside = Self::beside_in(geometry, pixel).into_iter().flatten();
+            let beside = geometry.beside(pixel).into_iter().flatten();
             beside.filter(move |&beside| target[beside] != target[pixel]).map(move |beside| (pixel, beside))
         };
         (0..geometry.pixels()).flat_map(pairs).collect()
@@ -71,22 +60,10 @@ impl Pixels {
         edges.iter().map(|(pixel, _)| edges.iter().filter(|(own, _)| own == pixel).count() as f64).collect()
     }
 
-    /// The up to four neighbours of a pixel: left, right, above, below.
-    pub fn beside(&self, pixel: usize) -> [Option<usize>; 4] {
-        Self::beside_in(self.geometry, pixel)
-    }
-
-    /// The up to four neighbours at its corners.
-    pub fn diagonal(&self, pixel: usize) -> [Option<usize>; 4] {
-        let [left, right, above, below] = self.beside(pixel);
-        let at = |row: Option<usize>, column: Option<usize>| Some(row? + column? - pixel);
-        [at(above, left), at(above, right), at(below, left), at(below, right)]
-    }
-
     /// Slope of `values` along the columns and the rows at a pixel, a pixel, on the side from which the image comes that
     /// moves by `moved` columns and rows.
     pub fn slopes(&self, values: &[f64], pixel: usize, moved: [f64; 2]) -> (f64, f64) {
-        let [left, right, above, below] = self.beside(pixel);
+        let [left, right, above, below] = self.geometry.beside(pixel);
         let slope = |before: Option<usize>, after: Option<usize>, moved: f64| match (before, after) {
             (Some(before), _) if moved > 0.0 => values[pixel] - values[before],
             (_, Some(after)) if moved < 0.0 => values[after] - values[pixel],

@@ -27,15 +27,15 @@ pub static EFFECT: Effect = Effect {
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let own = exposure.signal_dn.clone();
-    let pixels = &exposure.pixels;
+    let geometry = exposure.pixels.geometry;
     let [beside, above] = [1, 2].map(|way| 0.25 * values[0] + values[way]);
     let shares = [beside, beside, above, above];
     for (pixel, signal) in exposure.signal_dn.iter_mut().enumerate() {
         let more = |beside: usize| own[beside] - own[pixel];
-        let of_sides = pixels.beside(pixel).into_iter().zip(shares);
+        let of_sides = geometry.beside(pixel).into_iter().zip(shares);
         *signal += of_sides.filter_map(|(beside, share)| Some(share * more(beside?))).sum::<f64>();
         if values[3] != 0.0 {
-            let diagonal = pixels.diagonal(pixel).into_iter().flatten();
+            let diagonal = geometry.diagonal(pixel).into_iter().flatten();
             *signal += values[3] * diagonal.map(more).sum::<f64>();
         }
     }

@@ -85,12 +85,10 @@ pub static EFFECT: Effect = Effect {
     act: Act::Code(act),
 };
 
-/// Frames that have a gain.
-const FRAMES: usize = 64;
-
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let Some(gain) = values[..FRAMES].get(exposure.moment.frame).filter(|gain| **gain != 0.0) else { return };
-    let of_own_light = values[FRAMES] > 0.5;
+    let [gains @ .., of_own_light] = values else { return };
+    let Some(gain) = gains.get(exposure.moment.frame).filter(|gain| **gain != 0.0) else { return };
+    let of_own_light = *of_own_light > 0.5;
     for (signal, ambient) in exposure.signal_dn.iter_mut().zip(exposure.ambient_dn.iter()) {
         *signal += gain * if of_own_light { *signal - ambient } else { *signal };
     }

@@ -2,7 +2,7 @@
 
 use super::curves::curve;
 use super::text::paragraph;
-use crate::diagnose::{Diagnosis, Location};
+use crate::diagnose::{Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
 use crate::report::pixel_image::png_data_uri;
 use askama::Template;
@@ -150,7 +150,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
 fn evidence(diagnosis: &Diagnosis) -> Vec<Row> {
     let answer = &diagnosis.answer;
     let mut alone: Vec<_> = diagnosis.judgement.found.alone.iter().collect();
-    alone.sort_by(|a, b| b.3.total_cmp(&a.3));
+    alone.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
     let fate = |name: &str| {
         if answer.effects.iter().any(|effect| effect.name == name) {
             return "named".to_owned();
@@ -161,8 +161,8 @@ fn evidence(diagnosis: &Diagnosis) -> Vec<Row> {
         let row = answer.ruled_out.iter().find(|row| row.name == name);
         row.map_or_else(|| "cannot be seen here".to_owned(), |row| row.by.clone())
     };
-    let row = |&&(name, chi2, degrees, nats): &&(&'static str, f64, usize, f64)| {
-        vec![name.to_owned(), format!("{chi2:.1}"), degrees.to_string(), format!("{nats:.1}"), fate(name)]
+    let row = |&&Alone { name, chi2, degrees, ln_bayes }: &&Alone| {
+        vec![name.to_owned(), format!("{chi2:.1}"), degrees.to_string(), format!("{ln_bayes:.1}"), fate(name)]
     };
     alone.iter().map(row).collect()
 }
