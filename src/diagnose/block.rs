@@ -82,11 +82,14 @@ impl Block {
         let numbers: Vec<usize> = active.iter().map(|(number, _)| *number).chain([last]).collect();
         let product = values.transpose() * &values;
         let along = product.column(numbers.len());
-        for (a, &row) in numbers.iter().enumerate() {
-            for (b, &column) in numbers.iter().enumerate() {
-                self.full[(row, column)] += product[(a, b)];
+        for (product, &column) in product.column_iter().zip(&numbers) {
+            let mut sums = self.full.column_mut(column);
+            for (value, &row) in product.iter().zip(&numbers) {
+                sums[row] += value;
             }
-            self.position[set][row] += along[a];
+        }
+        for (along, &row) in along.iter().zip(&numbers) {
+            self.position[set][row] += along;
         }
         for (a, &column) in numbers.iter().enumerate() {
             let (values, mut sums) = (values.column(a), self.mixed.column_mut(column));

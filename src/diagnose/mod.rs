@@ -6,6 +6,7 @@ mod camera;
 mod clusters;
 mod codes;
 mod columns;
+mod contest;
 mod coordinates;
 mod data;
 mod evidence;

@@ -1,5 +1,6 @@
 //! The search: baseline, evidence of all candidates at once, fit of the best, and again for what is left.
 
+use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
 use super::fit::{Fit, fit};
@@ -104,17 +105,23 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
             break;
         }
         let mut rivals = pass.rivals(&whole, &candidates);
-        let with = |blocks: &[usize]| {
+        let pieces = |blocks: &[usize]| -> Vec<Piece> {
             let more = blocks.iter().map(|&block| &pass.blocks[block]);
             let more = more.flat_map(|b| candidates[b.candidate].variants[b.variant].pieces.iter().cloned());
-            let pieces = current.pieces.iter().cloned().chain(more).collect();
-            fit(data, Some(&current), pieces, noise, &|_| true)
+            current.pieces.iter().cloned().chain(more).collect()
         };
+        let fitted = |pieces: Vec<Piece>| fit(data, Some(&current), pieces, noise, &|_| true);
+        let with = |blocks: &[usize]| fitted(pieces(blocks));
         let lead = |is_far: bool| {
             let (leaders, others) = pass.leaders(&whole, is_far)?;
             let contest = |others: &[usize]| {
-                let beside = |block: usize| with(&[&[block], others].concat());
-                let fits = leaders.iter().map(|&block| (block, beside(block)));
+                let entrant = |&block: &usize| Entrant {
+                    block,
+                    name: pass.name(block, &candidates),
+                    pieces: pieces(&[&[block], others].concat()),
+                };
+                let entrants = hopeful(data, &current, leaders.iter().map(entrant).collect(), noise);
+                let fits = entrants.into_iter().map(|entrant| (entrant.block, fitted(entrant.pieces)));
                 pass.fittest(current.chi2, fits, &candidates, is_far)
             };
             let (mut single, mut fitted, mut near) = contest(&others)?;

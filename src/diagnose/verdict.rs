@@ -3,7 +3,7 @@
 use super::alias::alias_odds;
 use super::data::Data;
 use super::evidence::tail;
-use super::fit::unfitted;
+use super::fit::{fit, unfitted};
 use super::gram::Noise;
 use super::held_out::{HeldOut, held_out};
 use super::judge::{Judgement, Place, Verdict, judge};
@@ -167,7 +167,7 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     let left_out = outlying.len();
     let fewer = data.without(&outlying);
     let (data, baseline) = match &fewer {
-        Some(fewer) => (fewer, unfitted(fewer, noise)),
+        Some(fewer) => (fewer, fit(fewer, Some(&baseline), Vec::new(), noise, &|_| true)),
         None => (data, baseline),
     };
     let judgement = judge(data, baseline, noise);

@@ -1,0 +1,46 @@
+//! Fits of several effects of which one is to be chosen: what a part of the sets speaks against clearly is not fitted to all.
+
+use super::data::Data;
+use super::fit::{Fit, fit};
+use super::gram::Noise;
+use super::pass::DISBELIEF;
+use super::pieces::{Piece, tolerance};
+
+/// One set in so many is looked at first: no multiple of how often positions are repeated, as a rule.
+const PART: usize = 7;
+/// So many samples at least: fewer are fitted in no time.
+const LEAST_SAMPLES: usize = 50_000;
+/// Chi squared of the part by which an effect explains less than what its form may leave of the best one's.
+const CLEARLY_LESS: f64 = 50.0;
+
+/// One of several: what it is known by, its effect, and all pieces of a fit with it.
+pub struct Entrant {
+    /// Number of its block.
+    pub block: usize,
+    /// Its effect's name.
+    pub name: &'static str,
+    /// Pieces of the fit.
+    pub pieces: Vec<Piece>,
+}
+
+/// Those of the `entrants` that may explain about as much of what `current` leaves as the best one.
+pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise) -> Vec<Entrant> {
+    if entrants.len() < 2 || current.samples / PART < LEAST_SAMPLES {
+        return entrants;
+    }
+    let left = |pieces: &[Piece]| {
+        let fit = fit(data, Some(current), pieces.to_vec(), noise, &|set| set % PART == 0);
+        fit.chi2 + fit.unreached
+    };
+    let before = left(&current.pieces);
+    let explained: Vec<f64> = entrants.iter().map(|entrant| before - left(&entrant.pieces)).collect();
+    let most = explained.iter().copied().fold(0.0, f64::max);
+    let best = entrants.iter().zip(&explained).find(|(_, explained)| **explained == most);
+    let of_best = best.map_or(0.0, |(best, _)| tolerance(best.name));
+    let is_hopeful = |entrant: &Entrant, explained: f64| {
+        let form = DISBELIEF * tolerance(entrant.name).max(of_best);
+        explained > (1.0 - form) * most - CLEARLY_LESS
+    };
+    let with_explained = entrants.into_iter().zip(explained);
+    with_explained.filter(|(entrant, e)| is_hopeful(entrant, *e)).map(|(entrant, _)| entrant).collect()
+}
