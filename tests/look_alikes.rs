@@ -146,10 +146,30 @@ fn a_weak_pulse_in_one_frame_is_no_other_gain() {
 }
 
 /// Names for one effect in a campaign of all recordings.
-fn names_of(effect: &str) -> Vec<String> {
+fn names_with(effects: &[&str]) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
     let all = "four-sweep,four-rail,four-motion,wdft-sweep,wdft-rail,wdft-motion";
-    names(&verdict(&campaign(folder.path(), "16x12", all, &[effect])))
+    names(&verdict(&campaign(folder.path(), "16x12", all, effects)))
+}
+
+fn names_of(effect: &str) -> Vec<String> {
+    names_with(&[effect])
+}
+
+/// In a moving frame errors of its phase and of its time are the same; but on a rail nothing moves.
+#[test]
+fn two_jitters_are_two_and_one_is_one() {
+    let (clock, timing) = ("clock_jitter:sigma_rad=0.003", "timing_jitter_of_frames:sigma_s=0.003");
+    assert_eq!(names_with(&[clock, timing]), ["clock_jitter", "timing_jitter_of_frames"]);
+    assert_eq!(names_of(clock), ["clock_jitter"]);
+    assert_eq!(names_of(timing), ["timing_jitter_of_frames"]);
+}
+
+/// A strong jitter of frames, which rows of a frame share too, and of which frames that move faster show more.
+#[test]
+fn a_strong_jitter_is_a_jitter() {
+    assert_eq!(names_of("clock_jitter:sigma_rad=0.03"), ["clock_jitter"]);
+    assert_eq!(names_of("timing_jitter_of_frames:sigma_s=0.01"), ["timing_jitter_of_frames"]);
 }
 
 /// Light that falls evenly: a far drift, of which tangents promise more than a fit keeps, is not outvoted by the columns of time.
@@ -164,7 +184,7 @@ fn charge_that_wanders_along_rows_is_no_mixed_pixel() {
     assert_eq!(names_of("charge_crosstalk:from_beside=0.005"), ["charge_crosstalk"]);
 }
 
-/// What the form of a strong phase by amplitude leaves is not given to the frequency error that is nearly the same.
+/// A strong phase by one over the amplitude is that form of it, and neither its logarithm nor the frequency error that is nearly the same.
 #[test]
 fn a_phase_by_amplitude_is_alone() {
     assert_eq!(
@@ -177,4 +197,28 @@ fn a_phase_by_amplitude_is_alone() {
 #[test]
 fn a_gain_of_the_lasers_is_a_gain_of_frames() {
     assert_eq!(names_of("frame_gain:frame_1=0.01,of_own_light=1"), ["frame_gain"]);
+}
+
+/// A sweep goes through its phase offsets in time, but the rail does not.
+#[test]
+fn a_gain_that_follows_the_offset_is_a_mismatch_in_the_phase() {
+    let verdict = verdict_of("four-rail,four-sweep,wdft-sweep", |sample| {
+        let offset_rad = if sample.recording == 0 { 0.0 } else { TAU * (sample.set / 2) as f64 / 48.0 };
+        with(sample, 0.004 * (sample.code - 64.0) * offset_rad.cos())
+    });
+    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    assert_eq!(verdict["located"][0]["coordinate"], "phase", "{verdict:#}");
+}
+
+/// An S over the converter's whole scale is nearly what a response does that is not linear: both are said.
+#[test]
+fn a_converters_s_is_told_or_said_to_be_possible() {
+    let verdict = verdict_of("four-rail,four-sweep,wdft-sweep", |sample| {
+        with(sample, 10.0 * (TAU * sample.code / 4096.0).sin())
+    });
+    let effects = verdict["effects"].as_array().unwrap();
+    assert_eq!(effects.len(), 1, "{verdict:#}");
+    let possible = effects[0]["also_possible"].as_array().unwrap();
+    let said: Vec<_> = possible.iter().chain([&effects[0]["name"]]).filter_map(Value::as_str).collect();
+    assert!(said.contains(&"adc_nonlinearity"), "{verdict:#}");
 }

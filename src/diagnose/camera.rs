@@ -46,7 +46,7 @@ pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
             if takes.len() == data.takes.len() { String::new() } else { format!("@{}", takes.join(",")) };
         camera.effects.push(format!("{}:{}{only}", piece.effect.name, values.join(",")));
     }
-    if let Some((name, strength)) = judgement.random {
+    for &(name, strength) in &judgement.random {
         let parameter = crate::physics::effects::named(name).and_then(|effect| effect.parameters.first());
         camera.effects.extend(parameter.map(|parameter| format!("{name}:{}={strength:?}", parameter.name)));
     }

@@ -5,6 +5,8 @@
 
 use super::data::Data;
 use super::gram::Whitened;
+use super::jitters::{self, Jitters};
+use super::lines::Sum;
 use super::swings::{Seen, Swing, Swings};
 use super::waves::{Wave, Waves};
 use super::white::White;
@@ -48,6 +50,8 @@ pub const LEVELS: [Level; 6] =
 /// were where it is at another time (s), or, of a set, at another place (m), or, of a set too, with another velocity (m/s).
 pub const MODES: [&str; 5] = ["offset", "gain", "phase", "position", "velocity"];
 
+/// The first levels, of which there are few.
+const FEW: usize = 2;
 const STEPS: usize = 14;
 /// Least and greatest standard deviation of each mode.
 const ENDS: [(f64, f64); 5] = [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03), (1e-4, 0.3)];
@@ -86,6 +90,8 @@ type Curves = [[[f64; STEPS]; MODES.len()]; LEVELS.len()];
 pub struct Clusters {
     evidence: Vec<Curves>,
     information: Informed,
+    /// What sets and frames say, recording by recording: a few of them that are far off are no effect.
+    few: [[Vec<(usize, Sum)>; MODES.len()]; FEW],
     /// Score and information of the set whose frames come just now.
     set: [(f64, f64); MODES.len()],
     /// Offsets of frames, rows and columns.
@@ -94,6 +100,8 @@ pub struct Clusters {
     waves: [Waves; LINES.len()],
     /// Sets in time.
     swings: Swings,
+    /// Frames' errors of phase and time together.
+    pub jitters: Jitters,
 }
 
 /// Levels whose offsets are noise where they are white.
@@ -113,7 +121,8 @@ impl Clusters {
         // From the middle of the set on, so that another velocity leaves its place where it is.
         let from_middle_s = moment.in_set_s - 0.5 * (take.frames - 1) as f64 * moment.frame_period_s;
         let sizes = [1, geometry.height, width, blocks * geometry.height.div_ceil(2), geometry.pixels()];
-        for mode in 0..MODES.len() {
+        let mut of_frame = [(0.0, 0.0); MODES.len()];
+        for (mode, whole) in of_frame.iter_mut().enumerate() {
             // A set is at another place as a whole; a frame is only if it is taken at another time of a movement.
             if mode >= 3 {
                 let per = if mode == 3 { 1.0 } else { from_middle_s };
@@ -143,6 +152,7 @@ impl Clusters {
                     sums[place].1 += value * value;
                 }
             }
+            *whole = sums[0][0];
             if mode != 3 {
                 self.set[mode].0 += sums[0][0].0;
                 self.set[mode].1 += sums[0][0].1;
@@ -160,10 +170,18 @@ impl Clusters {
             // A pixel alone has noise, whatever it is proportional to.
             let levels = if mode < 2 { 5 } else { 1 };
             for (level, sums) in sums.iter().enumerate().take(levels) {
-                let informed = &mut self.information[level + 1][mode];
-                add(&mut self.evidence[whitened.take][level + 1][mode], informed, mode, sums, level == 0);
+                inform(&mut self.information[level + 1][mode], sums);
+                match level {
+                    0 => self.few[1][mode].push((whitened.take, sums[0])),
+                    _ => add(&mut self.evidence[whitened.take][level + 1][mode], mode, sums),
+                }
             }
         }
+        let by_both = |pixel: usize| {
+            whitened.roots[pixel].powi(2) * velocity_m_s * frame.position[pixel] * frame.own[1][pixel]
+        };
+        let shared = if velocity_m_s == 0.0 { 0.0 } else { (0..whitened.roots.len()).map(by_both).sum() };
+        self.jitters.add(jitters::Seen { phase: of_frame[2], time: of_frame[3], shared });
         if (whitened.index + 1).is_multiple_of(take.frames) {
             let sums = std::mem::take(&mut self.set);
             // Without its light the camera has neither gain nor phase.
@@ -172,8 +190,8 @@ impl Clusters {
             let at = [moment.offset_rad, moment.commanded_m()];
             self.swings.add(Seen { take: whitened.take, time_s: moment.time_s, at, modes: swinging });
             for (mode, sum) in sums.into_iter().enumerate() {
-                let informed = &mut self.information[0][mode];
-                add(&mut self.evidence[whitened.take][0][mode], informed, mode, &[sum], true);
+                inform(&mut self.information[0][mode], &[sum]);
+                self.few[0][mode].push((whitened.take, sum));
             }
         }
         self
@@ -195,11 +213,15 @@ impl Clusters {
         {
             sum.iter_mut().zip(other).for_each(|(sum, other)| *sum += other);
         }
+        for (few, others) in self.few.iter_mut().flatten().zip(other.few.into_iter().flatten()) {
+            few.extend(others);
+        }
         self.white = std::array::from_fn(|level| self.white[level].clone().and(&other.white[level]));
         let [rows, columns] = self.waves;
         let [more_rows, more_columns] = other.waves;
         self.waves = [rows.and(more_rows), columns.and(more_columns)];
         self.swings = self.swings.and(other.swings);
+        self.jitters = self.jitters.and(other.jitters);
         self
     }
 
@@ -214,6 +236,21 @@ impl Clusters {
         self.swings.strongest()
     }
 
+    /// Evidence with that of sets and frames.
+    fn with_few(&self) -> Vec<Curves> {
+        let mut evidence = self.evidence.clone();
+        for (level, modes) in self.few.iter().enumerate() {
+            for (mode, few) in modes.iter().enumerate() {
+                let mut by_take = vec![Vec::new(); evidence.len()];
+                tamed(few).into_iter().for_each(|(take, sum)| by_take[take].push(sum));
+                for (curves, sums) in evidence.iter_mut().zip(by_take) {
+                    add(&mut curves[level][mode], mode, &sums);
+                }
+            }
+        }
+        evidence
+    }
+
     /// Standard deviation by the scores' variance.
     fn moment(&self, level: usize, mode: usize) -> f64 {
         let [_, _, squares, beyond] = self.information[level][mode];
@@ -222,14 +259,15 @@ impl Clusters {
 
     /// The best of every level and mode that has any evidence, best first.
     pub fn ranked(&self) -> Vec<Cluster> {
+        let evidence = self.with_few();
         let mut found = Vec::new();
         for (number, level) in LEVELS.into_iter().enumerate() {
             for mode in 0..MODES.len() {
-                let at = |step: usize| self.evidence.iter().map(|take| take[number][mode][step]).sum::<f64>();
+                let at = |step: usize| evidence.iter().map(|take| take[number][mode][step]).sum::<f64>();
                 let best = (0..STEPS).max_by(|&a, &b| at(a).total_cmp(&at(b))).unwrap_or(0);
                 let spread = peak(best, &at);
-                let of_take = |take: &usize| self.evidence[*take][number][mode][best];
-                let take = (0..self.evidence.len()).max_by(|a, b| of_take(a).total_cmp(&of_take(b)));
+                let of_take = |take: &usize| evidence[*take][number][mode][best];
+                let take = (0..evidence.len()).max_by(|a, b| of_take(a).total_cmp(&of_take(b)));
                 found.push(Cluster {
                     level,
                     mode,
@@ -257,10 +295,23 @@ impl Clusters {
     }
 }
 
-/// A set or frame that is off by more than four standard deviations counts as four: a few outliers are no effect.
-fn tame((score, information): (f64, f64)) -> (f64, f64) {
-    let most = 4.0 * information.sqrt();
-    (score.clamp(-most, most), information)
+/// All but a few, and the standard deviations that so many are within of a normal distribution.
+const WITHIN: (f64, f64) = (0.96, 2.05);
+
+/// A set or frame that is off by more than four standard deviations counts as four, of noise or of what is usual among all: a few outliers are no effect.
+fn tamed(few: &[(usize, Sum)]) -> Vec<(usize, Sum)> {
+    let seen = few.iter().filter(|(_, (_, information))| *information > 0.0);
+    let mut sizes: Vec<f64> =
+        seen.clone().map(|(_, (score, information))| score.abs() / information.sqrt()).collect();
+    sizes.sort_by(f64::total_cmp);
+    // What all but a few are within, over what they are within of a normal distribution: errors of frames that move differently are no such one.
+    let most = sizes.get((WITHIN.0 * sizes.len() as f64) as usize).copied();
+    let usual = most.map_or(1.0, |most| (most / WITHIN.1).max(1.0));
+    let tame = |&(take, (score, information)): &(usize, Sum)| {
+        let most = 4.0 * usual * information.sqrt();
+        (take, (score.clamp(-most, most), information))
+    };
+    seen.map(tame).collect()
 }
 
 /// Where the evidence is greatest, between the steps: by the parabola through the best one and its neighbours.
@@ -273,15 +324,17 @@ fn peak(best: usize, at: &dyn Fn(usize) -> f64) -> f64 {
     best as f64 + if bend < 0.0 { 0.5 * (left - right) / bend } else { 0.0 }
 }
 
-fn add(curve: &mut [f64; STEPS], informed: &mut [f64; 4], mode: usize, sums: &[(f64, f64)], is_tame: bool) {
+fn inform(informed: &mut [f64; 4], sums: &[Sum]) {
     for &(score, information) in sums.iter().filter(|sum| sum.1 > 0.0) {
         informed[0] += 1.0;
         informed[1] += information;
         informed[2] += information * information;
         informed[3] += score * score - information;
     }
-    let heard = sums.iter().filter(|sum| sum.1 > 0.0).map(|&sum| if is_tame { tame(sum) } else { sum });
-    let heard: Vec<(f64, f64)> = heard.collect();
+}
+
+fn add(curve: &mut [f64; STEPS], mode: usize, sums: &[Sum]) {
+    let heard: Vec<Sum> = sums.iter().filter(|sum| sum.1 > 0.0).copied().collect();
     for (step, evidence) in curve.iter_mut().enumerate() {
         let variance = variance(mode, step as f64);
         *evidence += heard.chunks(TOGETHER).map(|some| of_shared_variance(variance, some)).sum::<f64>();

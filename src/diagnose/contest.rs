@@ -10,8 +10,10 @@ use super::pieces::{Piece, tolerance};
 const PART: usize = 7;
 /// So many samples at least: fewer are fitted in no time.
 const LEAST_SAMPLES: usize = 50_000;
-/// Chi squared of the part by which an effect explains less than what its form may leave of the best one's.
-const CLEARLY_LESS: f64 = 50.0;
+/// Chi squared of the part by which an effect explains less than what its form may leave of the best one's: what a part holds of all is not sure.
+const CLEARLY_LESS: f64 = 100.0;
+/// What numbers explain by chance, in standard deviations, at most.
+const BY_CHANCE: f64 = 3.0;
 
 /// One of several: what it is known by, its effect, and all pieces of a fit with it.
 pub struct Entrant {
@@ -30,17 +32,23 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
     }
     let left = |pieces: &[Piece]| {
         let fit = fit(data, Some(current), pieces.to_vec(), noise, &|set| set % PART == 0);
-        fit.chi2 + fit.unreached
+        (fit.chi2 + fit.unreached, fit.columns.len())
     };
-    let before = left(&current.pieces);
-    let explained: Vec<f64> = entrants.iter().map(|entrant| before - left(&entrant.pieces)).collect();
-    let most = explained.iter().copied().fold(0.0, f64::max);
-    let best = entrants.iter().zip(&explained).find(|(_, explained)| **explained == most);
-    let of_best = best.map_or(0.0, |(best, _)| tolerance(best.name));
+    let (before, fitted) = left(&current.pieces);
+    // What it explains, and of that what is no chance.
+    let explained = |entrant: &Entrant| {
+        let (left, numbers) = left(&entrant.pieces);
+        let numbers = numbers.saturating_sub(fitted) as f64;
+        let explained = before - left;
+        (explained, explained - numbers - BY_CHANCE * (2.0 * numbers).sqrt())
+    };
+    let explained: Vec<(f64, f64)> = entrants.iter().map(explained).collect();
+    let best = entrants.iter().zip(&explained).max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+    let (of_best, most) = best.map_or((0.0, 0.0), |(best, explained)| (tolerance(best.name), explained.1));
     let is_hopeful = |entrant: &Entrant, explained: f64| {
         let form = DISBELIEF * tolerance(entrant.name).max(of_best);
         explained > (1.0 - form) * most - CLEARLY_LESS
     };
     let with_explained = entrants.into_iter().zip(explained);
-    with_explained.filter(|(entrant, e)| is_hopeful(entrant, *e)).map(|(entrant, _)| entrant).collect()
+    with_explained.filter(|(entrant, e)| is_hopeful(entrant, e.0)).map(|(entrant, _)| entrant).collect()
 }

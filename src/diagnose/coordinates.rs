@@ -108,6 +108,10 @@ const TIMES: usize = 8;
 const LIGHTS: usize = 10;
 const CODES: usize = 14;
 const CYCLES: usize = 6;
+/// Columns of the phase coordinate that go with the range's phase; those after them go with the phase offset that was set.
+pub const OF_RANGE: usize = 6 * CYCLES;
+/// Functions of the phase offset: sine and cosine, of one cycle a turn and of two.
+const OF_OFFSET: usize = 4;
 const RUN_WAYS: [&str; 5] = [
     "linear in velocity",
     "with speed",
@@ -120,7 +124,7 @@ const CHANGES: [&str; 4] = ["with velocity", "with the frame of a set", "with di
 
 /// All coordinates whose columns are functions.
 pub const COORDINATES: [Coordinate; 11] = [
-    Coordinate { name: "phase", columns: |_| 6 * CYCLES, fill: phase, shape: phase_shape },
+    Coordinate { name: "phase", columns: |_| OF_RANGE + 3 * OF_OFFSET, fill: phase, shape: phase_shape },
     Coordinate {
         name: "position_m",
         columns: |_| 3 * POSITIONS,
@@ -243,13 +247,13 @@ fn amplitude_dn(view: &View) -> Vec<f64> {
     view.frame.own[2].iter().zip(&view.pixels.amplitude_1m_dn).map(|(share, at_1m)| share * at_1m).collect()
 }
 
-/// Phase: of the range (not of the offset) in cycles a turn as phase and gain errors, and of the waveform.
+/// Phase: of the range (not of the offset) in cycles a turn as phase and gain errors, and of the waveform; and the phase offset, whatever the range.
 fn phase(view: &View) -> Acting {
     let moment = view.moment;
     let position_m = moment.commanded_m();
     let count = view.frame.base.len();
     let amplitude = amplitude_dn(view);
-    let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; 6 * CYCLES];
+    let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; OF_RANGE];
     for pixel in (0..count).filter(|&pixel| view.tells(pixel)) {
         let range_m = position_m * view.pixels.obliquity[pixel];
         let phase =
@@ -270,7 +274,11 @@ fn phase(view: &View) -> Acting {
             columns[at + 5][pixel] = wave_sine * amplitude[pixel];
         }
     }
-    columns.into_iter().enumerate().collect()
+    let (once, twice) = (cos_sin(moment.offset_rad), cos_sin(2.0 * moment.offset_rad));
+    let functions = [once.0, once.1, twice.0, twice.1];
+    let of_offset = by_frame(view, OF_OFFSET, &functions.into_iter().enumerate().collect::<Vec<_>>());
+    let after = of_offset.into_iter().map(|(number, column)| (OF_RANGE + number, column));
+    columns.into_iter().enumerate().chain(after).collect()
 }
 
 fn further((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> (f64, f64) {
@@ -278,6 +286,9 @@ fn further((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> (f64, f64) {
 }
 
 fn phase_shape(_: &Ranges, column: usize) -> String {
+    if let Some(column) = column.checked_sub(OF_RANGE) {
+        return mode_shape(OF_OFFSET, column, |n| format!("{} cycles a turn of the phase offset", n / 2 + 1));
+    }
     let cycles = column / 6 + 1;
     match column % 6 {
         0 | 1 => format!("{cycles} cycles a turn, phase"),

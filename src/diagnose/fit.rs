@@ -318,8 +318,9 @@ fn free_shapes(pieces: &mut [Piece]) {
 }
 
 /// How far the number of each column may go.
-fn reaches(columns: &[Column], pieces: &[Piece]) -> Vec<f64> {
-    columns.iter().map(|column| pieces[column.piece].effect.parameters[column.parameter].reach()).collect()
+fn reaches(columns: &[Column], pieces: &[Piece], full_scale_dn: f64) -> Vec<f64> {
+    let parameter = |column: &Column| &pieces[column.piece].effect.parameters[column.parameter];
+    columns.iter().map(|column| parameter(column).reach(full_scale_dn)).collect()
 }
 
 /// The step to the minimum, and the standard deviations there, for numbers that stay within their bounds: one that is at a bound and would
@@ -331,7 +332,7 @@ fn bounded_step(
     full_scale_dn: f64,
     damping: f64,
 ) -> (DVector<f64>, Vec<f64>) {
-    let mut reach = reaches(columns, pieces);
+    let mut reach = reaches(columns, pieces, full_scale_dn);
     loop {
         let (theta, sigma) = step(projected, &reach, damping);
         let goes_beyond = |number: &usize| {

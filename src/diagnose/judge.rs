@@ -11,7 +11,7 @@ use super::pass::{DISBELIEF, RIVAL_NATS, THRESHOLD};
 use super::pieces::{OF_OTHER_PIXELS, Piece, tolerance};
 use super::random::{
     self, ORDERED_SHARE, RandomEffect, coordinate, deflated, errors, inflation, is_noisier, random_effect,
-    words,
+    two_jitters, words,
 };
 use super::search::{Found, Named, search};
 use super::source::{Shown, is_one, shown};
@@ -73,8 +73,8 @@ pub struct Judgement {
     pub remainder: f64,
     /// What is left by the simulation that the camera describes, and by the fit that is asserted.
     pub locations: [Location; 2],
-    /// A random effect, and its standard deviation.
-    pub random: Option<(&'static str, f64)>,
+    /// Random effects, and their standard deviations.
+    pub random: Vec<(&'static str, f64)>,
     /// The search behind it.
     pub found: Found,
     /// The fit that is asserted: the baseline where nothing is.
@@ -118,8 +118,8 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         // Of two that were found together the evidence is that of both.
         let together = found.named.iter().filter(|other| other.ln_bayes == named.ln_bayes);
         let chi2: f64 = together.map(|named| named.score.0).sum();
-        // A fit may explain much more than the tangents from which the evidence is.
-        let chi2 = chi2.min(2.0 * (named.ln_bayes + FREEDOM_NATS));
+        // A fit may explain much more, or less, than the tangents from which the evidence is.
+        let chi2 = chi2.clamp(2.0 * named.ln_bayes, 2.0 * (named.ln_bayes + FREEDOM_NATS));
         deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && (named.name != FLICKER || several.is_none())
     };
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
@@ -148,9 +148,12 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let are_raised = random.is_some() || shared.is_some();
     let simpler = !is_far && !are_raised && is_outvoted(&baseline, &found, &named, explained);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
-    let mut strength = None;
-    if let Some(RandomEffect { name, sigma, ln_bayes, .. }) = random.or(excess) {
-        strength = Some((name, sigma));
+    let first = random.or(excess);
+    let two = first.and_then(|first| two_jitters(&end, first));
+    let at_random: Vec<RandomEffect> = two.map_or_else(|| first.into_iter().collect(), |two| two.to_vec());
+    let mut strengths = Vec::new();
+    for &RandomEffect { name, sigma, ln_bayes, .. } in &at_random {
+        strengths.push((name, sigma));
         named.push(Named { name, ln_bayes, score: (2.0 * ln_bayes, 1), rivals: Vec::new() });
         if name == "excess_noise" {
             let shape = format!("noise in proportion to the signal, {:.2} %", 100.0 * sigma);
@@ -178,7 +181,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         || !named.is_empty() && unnamed.is_none() && remainder < believed && !(stays && named.len() > 2)
     {
         if named.is_empty() { Verdict::Clean } else { Verdict::Explained }
-    } else if random.is_some() && named.len() == 1 {
+    } else if random.is_some() && named.len() == at_random.len() {
         Verdict::Explained
     } else if named.is_empty()
         || remainder > 0.5
@@ -195,7 +198,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // Codes without their low bits need no statistics.
     let verdict = if data.cut_bits > 0 && matches!(verdict, Verdict::Clean | Verdict::Explained) {
         let ln_bayes = found.baseline.samples as f64 * f64::from(data.cut_bits) * std::f64::consts::LN_2;
-        strength = Some((effects::FIXED_POINT, f64::from(data.cut_bits)));
+        strengths = vec![(effects::FIXED_POINT, f64::from(data.cut_bits))];
         let score = (2.0 * ln_bayes, 1);
         named.push(Named { name: effects::FIXED_POINT, ln_bayes, score, rivals: Vec::new() });
         Verdict::Explained
@@ -216,7 +219,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         named,
         remainder,
         locations,
-        random: strength,
+        random: strengths,
         found,
         fit,
         noise,

@@ -8,6 +8,7 @@ use super::data::Data;
 use super::evidence::{Block, Evidence, Greatest};
 use super::fit::Fit;
 use super::gram::{Gram, Noise, Projected, Whitened};
+use super::jitters::Jitters;
 use super::parts::parts;
 use super::profiles::{Profile, Profiles};
 use super::ranges::Ranges;
@@ -34,6 +35,8 @@ pub struct Location {
     pub columns: Vec<Located>,
     /// Random errors, best first.
     pub clusters: Vec<Cluster>,
+    /// What frames say of errors of phase and time together.
+    pub jitters: Jitters,
     /// The recording with the greatest misfit.
     pub take: usize,
     /// Mean residuals over coordinates.
@@ -103,6 +106,7 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     Location {
         columns,
         clusters: clusters.ranked(),
+        jitters: clusters.jitters,
         take: base.series.worst_take(),
         curves: profiles.curves(&ranges),
         map: profiles.map(),

@@ -14,6 +14,7 @@ mod fit;
 mod gram;
 mod grid;
 mod held_out;
+mod jitters;
 mod judge;
 mod library;
 mod lines;

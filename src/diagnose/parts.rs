@@ -1,5 +1,6 @@
 //! Parts of a coordinate's columns: one way of being off alone may say it by fewer numbers than all.
 
+use super::coordinates::OF_RANGE;
 use super::ranges::Ranges;
 
 /// Parts of the columns of a coordinate, by their numbers.
@@ -7,9 +8,12 @@ type Parts = fn(&Ranges, usize) -> Vec<Vec<usize>>;
 
 /// Parts of those coordinates that have any.
 const PARTS: [(&str, Parts); 9] = [
-    ("phase", |_, size| {
-        // Errors of the phase, of the offset, of the waveform.
-        (0..3).map(|way| (0..size).filter(|column| column % 6 / 2 == way).collect()).collect()
+    ("phase", |ranges, size| {
+        // Errors of the phase, of the offset, of the waveform; and what goes with the phase offset that was set.
+        let way = |way: usize| (0..OF_RANGE).filter(|column| column % 6 / 2 == way).collect();
+        let of_offset = modes(ranges, size - OF_RANGE);
+        let of_offset = of_offset.into_iter().map(|part| part.into_iter().map(|n| OF_RANGE + n).collect());
+        (0..3).map(way).chain(of_offset).collect()
     }),
     ("position_m", modes),
     ("velocity_m_s", modes),
@@ -83,12 +87,13 @@ mod tests {
     #[test]
     fn parts_are_columns_of_one_way_each() {
         let ranges = ranges(vec![(4, 0), (64, 4)]);
-        for (name, size) in [("phase", 36), ("time_s", 48), ("set", 6)] {
+        for (name, size) in [("phase", 48), ("time_s", 48), ("set", 6)] {
             let mut all = parts(name, &ranges, size).concat();
             all.sort_unstable();
             assert_eq!(all, (0..size).collect::<Vec<_>>(), "{name}");
         }
-        assert_eq!(parts("phase", &ranges, 12)[1], [2, 3, 8, 9]);
+        let phase = parts("phase", &ranges, 48);
+        assert_eq!((&phase[1][..4], &phase[3][..]), (&[2, 3, 8, 9][..], &[36, 37, 38, 39][..]));
         assert!(parts("neighbours", &ranges, 4).is_empty());
     }
 

@@ -107,9 +107,9 @@ impl Pass {
         projected.give_way(base.columns.len());
         let reach = |column: usize| {
             let (number, parameter) = parameters[column];
-            candidates
-                .get(number)
-                .map_or(f64::INFINITY, |candidate| candidate.effect.parameters[parameter].reach())
+            candidates.get(number).map_or(f64::INFINITY, |candidate| {
+                candidate.effect.parameters[parameter].reach(base.pixels.full_scale_dn)
+            })
         };
         let evidence = Evidence::new(
             &projected.matrix,

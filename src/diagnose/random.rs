@@ -77,6 +77,27 @@ pub struct RandomEffect {
     pub inflation: f64,
 }
 
+/// The random effects of the registry: of a phase, and of a time.
+const JITTERS: [&str; 2] = ["clock_jitter", "timing_jitter_of_frames"];
+/// Of the evidence for a random effect, a second one beside it must have so much, and so many nats besides.
+const SECOND: (f64, f64) = (0.005, 5.0);
+
+/// What frames show of the other jitter beside the `first` one, and what of that then.
+pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEffect; 2]> {
+    let both = location.jitters.both()?;
+    let number = JITTERS.iter().position(|name| *name == first.name)?;
+    let sigma = [both.phase_rad, both.time_s];
+    let of = |number: usize, ln_bayes| RandomEffect {
+        name: JITTERS[number],
+        sigma: sigma[number],
+        ln_bayes,
+        ..first
+    };
+    let is_clear = both.beside.iter().all(|nats| *nats > SECOND.0 * first.ln_bayes + SECOND.1);
+    let other = 1 - number;
+    is_clear.then(|| [of(number, first.ln_bayes), of(other, both.beside[other])])
+}
+
 /// A random effect of the registry, if the strongest errors are what it makes, and nothing orders them.
 pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     let Cluster { level, mode, sigma, ln_bayes, inflation, .. } = **errors(data, location).first()?;
@@ -86,8 +107,8 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
         return None;
     }
     let name = match (level, MODES[mode]) {
-        (Level::Frame, "phase") => "clock_jitter",
-        (Level::Frame, "position") => "timing_jitter_of_frames",
+        (Level::Frame, "phase") => JITTERS[0],
+        (Level::Frame, "position") => JITTERS[1],
         _ => return None,
     };
     Some(RandomEffect { name, sigma, ln_bayes, inflation })

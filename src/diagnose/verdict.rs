@@ -346,7 +346,7 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRo
     }
     if rows.is_empty() {
         // A random effect is not fitted: its strength is the cluster's.
-        let cluster = judgement.random.filter(|(random, _)| *random == name);
+        let cluster = judgement.random.iter().copied().find(|(random, _)| *random == name);
         let parameter = data.effect(name).and_then(|effect| effect.parameters.first());
         rows.extend(cluster.zip(parameter).map(|((_, sigma), parameter)| ParameterRow {
             name: parameter.name.to_owned(),

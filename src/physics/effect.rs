@@ -22,8 +22,8 @@ pub struct Parameter {
     pub is_choice: bool,
     /// A strength that says in another way what the others say: off as a rule, and fitted in their place.
     pub is_instead: bool,
-    /// A period in the code, which within the signals there are must come twice at least.
-    pub is_period_in_code: bool,
+    /// How far from 0 it may be at most, in full scales; infinite where that does not matter.
+    pub most_full_scales: f64,
 }
 
 impl Parameter {
@@ -44,7 +44,7 @@ impl Parameter {
             shapes: &[],
             is_choice: false,
             is_instead: false,
-            is_period_in_code: false,
+            most_full_scales: f64::INFINITY,
         }
     }
 
@@ -54,10 +54,10 @@ impl Parameter {
         Self { is_instead: true, ..self }
     }
 
-    /// The same as a period in the code.
+    /// The same of a code, with at most so many full scales.
     #[must_use]
-    pub const fn period_in_code(self) -> Self {
-        Self { is_period_in_code: true, ..self }
+    pub const fn within_full_scales(self, most_full_scales: f64) -> Self {
+        Self { most_full_scales, ..self }
     }
 
     /// A shape: it matters only where a strength is not off.
@@ -85,13 +85,14 @@ impl Parameter {
     /// Least and greatest value where signals go up to `full_scale_dn`.
     pub fn bounds_within(&self, full_scale_dn: f64) -> (f64, f64) {
         let (low, high) = self.bounds;
-        let most = if self.is_period_in_code { full_scale_dn / 2.0 } else { f64::INFINITY };
-        (low.min(most), high.min(most))
+        let most = self.most_full_scales * full_scale_dn;
+        (low.clamp(-most, most), high.clamp(-most, most))
     }
 
-    /// How far from off it may be.
-    pub fn reach(&self) -> f64 {
-        (self.bounds.1 - self.off).max(self.off - self.bounds.0)
+    /// How far from off it may be where signals go up to `full_scale_dn`.
+    pub fn reach(&self, full_scale_dn: f64) -> f64 {
+        let (low, high) = self.bounds_within(full_scale_dn);
+        (high - self.off).max(self.off - low)
     }
 
     /// Whether it is a shape.

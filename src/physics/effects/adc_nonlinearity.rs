@@ -3,16 +3,24 @@
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
 use std::f64::consts::TAU;
 
+/// Periods from which a search starts: those of the converter's bits.
+const SHAPES: &[f64] =
+    &[64.0, 128.0, 256.0, 512.0, 1024.0, 2048.0, 4096.0, 8192.0, 16_384.0, 32_768.0, 65_536.0];
+
+/// Of full scale, no converter is off by more: what is, is a response.
+const MOST: f64 = 0.02;
+/// The longest period in full scales: that of the first bit, all codes, of which some are below the pedestal.
+const LONGEST: f64 = 1.05;
+
 /// An error that is periodic in the code: its parts, and its period.
 pub static EFFECT: Effect = Effect {
     name: "adc_nonlinearity",
     sentence: "The converter's code is off by an amount that repeats with the code (integral non-linearity of its stages).",
     reference: "code -> code + a cos(2 pi code / p) + b sin(2 pi code / p)",
     parameters: &[
-        Parameter::strength("cosine_dn", "DN", 0.0, (-50.0, 50.0), 1.0),
-        Parameter::strength("sine_dn", "DN", 0.0, (-50.0, 50.0), 1.0),
-        Parameter::shape("period_dn", "DN", 256.0, (16.0, 2048.0), &[64.0, 128.0, 256.0, 512.0, 1024.0])
-            .period_in_code(),
+        Parameter::strength("cosine_dn", "DN", 0.0, (-50.0, 50.0), 1.0).within_full_scales(MOST),
+        Parameter::strength("sine_dn", "DN", 0.0, (-50.0, 50.0), 1.0).within_full_scales(MOST),
+        Parameter::shape("period_dn", "DN", 256.0, (16.0, 81_920.0), SHAPES).within_full_scales(LONGEST),
     ],
     place: Place::Readout,
     chance: Chance::None,
