@@ -110,7 +110,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let unnamed = several.as_ref().filter(is_clear);
     if let Some(line) = unnamed {
         for places in [&mut places, &mut left] {
-            let at = places.iter().position(|place| place.ln_bayes < line.ln_bayes);
+            // Random errors give way to what orders them.
+            let share = |place: &Place| if place.is_random { ORDERED_SHARE } else { 1.0 };
+            let at = places.iter().position(|place| share(place) * place.ln_bayes < line.ln_bayes);
             places.insert(at.unwrap_or(places.len()), line.clone());
         }
     }
