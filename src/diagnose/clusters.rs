@@ -295,18 +295,19 @@ impl Clusters {
     }
 }
 
-/// All but a few, and the standard deviations that so many are within of a normal distribution.
-const WITHIN: (f64, f64) = (0.96, 2.05);
+/// So many, and this share besides, may be outliers; of a normal distribution all but this share are within so many standard deviations.
+const FEW_OUTLIERS: (usize, f64) = (6, 0.04);
+const WITHIN: f64 = 2.05;
 
-/// A set or frame that is off by more than four standard deviations counts as four, of noise or of what is usual among all: a few outliers are no effect.
+/// A set or frame that is off by more than four times the noise, or what is usual among all but a few, counts as four: a few outliers are no effect.
 fn tamed(few: &[(usize, Sum)]) -> Vec<(usize, Sum)> {
     let seen = few.iter().filter(|(_, (_, information))| *information > 0.0);
     let mut sizes: Vec<f64> =
         seen.clone().map(|(_, (score, information))| score.abs() / information.sqrt()).collect();
     sizes.sort_by(f64::total_cmp);
-    // What all but a few are within, over what they are within of a normal distribution: errors of frames that move differently are no such one.
-    let most = sizes.get((WITHIN.0 * sizes.len() as f64) as usize).copied();
-    let usual = most.map_or(1.0, |most| (most / WITHIN.1).max(1.0));
+    let outliers = FEW_OUTLIERS.0.max((FEW_OUTLIERS.1 * sizes.len() as f64).ceil() as usize);
+    let most = sizes.len().checked_sub(outliers + 1).map(|place| sizes[place]);
+    let usual = most.map_or(1.0, |most| (most / WITHIN).max(1.0));
     let tame = |&(take, (score, information)): &(usize, Sum)| {
         let most = 4.0 * usual * information.sqrt();
         (take, (score.clamp(-most, most), information))
@@ -359,6 +360,18 @@ fn of_shared_variance(variance: f64, clusters: &[(f64, f64)]) -> f64 {
 mod tests {
     use super::super::evidence::of_variance;
     use super::*;
+
+    #[test]
+    fn a_few_outliers_count_as_four_and_what_all_do_stays() {
+        let greatest = |far: &dyn Fn(usize) -> bool, count: usize| {
+            let few = (0..count).map(|n| (0, (if far(n) { 30.0 } else { 3.0 }, 9.0)));
+            tamed(&few.collect::<Vec<_>>()).iter().map(|(_, (score, _))| score / 3.0).fold(0.0, f64::max)
+        };
+        for count in [5, 12, 25, 72, 400] {
+            assert!(greatest(&|n| n % 24 == 3 && n < 96, count) < 4.01, "{count}");
+        }
+        assert!(greatest(&|_| true, 400) > 9.99);
+    }
 
     #[test]
     fn clusters_together_are_clusters_one_by_one() {

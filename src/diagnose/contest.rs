@@ -6,11 +6,11 @@ use super::gram::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
 
-/// One set in so many is looked at first: no multiple of how often positions are repeated, as a rule.
+/// One set in so many of each recording is looked at first: no multiple of how often positions are repeated, as a rule.
 const PART: usize = 7;
 /// So many samples at least: fewer are fitted in no time.
 const LEAST_SAMPLES: usize = 50_000;
-/// Chi squared of the part by which an effect explains less than what its form may leave of the best one's: what a part holds of all is not sure.
+/// What the best one explains of the part, but for what its form may leave, must be more by this chi squared: a part does not say exactly what all sets say.
 const CLEARLY_LESS: f64 = 100.0;
 /// What numbers explain by chance, in standard deviations, at most.
 const BY_CHANCE: f64 = 3.0;
@@ -25,13 +25,14 @@ pub struct Entrant {
     pub pieces: Vec<Piece>,
 }
 
-/// Those of the `entrants` that may explain about as much of what `current` leaves as the best one.
+/// Those of the `entrants`, of which the first one is the best by its tangents and stays, that may explain about as much of what `current` leaves as the best one.
 pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise) -> Vec<Entrant> {
     if entrants.len() < 2 || current.samples / PART < LEAST_SAMPLES {
         return entrants;
     }
+    let sets = data.sets();
     let left = |pieces: &[Piece]| {
-        let fit = fit(data, Some(current), pieces.to_vec(), noise, &|set| set % PART == 0);
+        let fit = fit(data, Some(current), pieces.to_vec(), noise, &|set| sets[set].1 % PART == 0);
         (fit.chi2 + fit.unreached, fit.columns.len())
     };
     let (before, fitted) = left(&current.pieces);
@@ -49,6 +50,7 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         let form = DISBELIEF * tolerance(entrant.name).max(of_best);
         explained > (1.0 - form) * most - CLEARLY_LESS
     };
-    let with_explained = entrants.into_iter().zip(explained);
-    with_explained.filter(|(entrant, e)| is_hopeful(entrant, e.0)).map(|(entrant, _)| entrant).collect()
+    let with_explained = entrants.into_iter().zip(explained).enumerate();
+    let stay = with_explained.filter(|(number, (entrant, e))| *number == 0 || is_hopeful(entrant, e.0));
+    stay.map(|(_, (entrant, _))| entrant).collect()
 }

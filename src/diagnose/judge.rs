@@ -121,7 +121,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         let together = found.named.iter().filter(|other| other.ln_bayes == named.ln_bayes);
         let chi2: f64 = together.map(|named| named.score.0).sum();
         // A fit may explain much more, or less, than the tangents from which the evidence is.
-        let chi2 = chi2.clamp(2.0 * named.ln_bayes, 2.0 * (named.ln_bayes + FREEDOM_NATS));
+        let chi2 = chi2.max(2.0 * named.ln_bayes).min(2.0 * (named.ln_bayes + FREEDOM_NATS));
         deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && (named.name != FLICKER || several.is_none())
     };
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
@@ -183,7 +183,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         || !named.is_empty() && unnamed.is_none() && remainder < believed && !(stays && named.len() > 2)
     {
         if named.is_empty() { Verdict::Clean } else { Verdict::Explained }
-    } else if random.is_some() && named.len() == at_random.len() {
+    } else if random.is_some() && unnamed.is_none() && named.len() == at_random.len() {
         Verdict::Explained
     } else if named.is_empty()
         || remainder > 0.5
@@ -200,7 +200,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // Codes without their low bits need no statistics.
     let verdict = if data.cut_bits > 0 && matches!(verdict, Verdict::Clean | Verdict::Explained) {
         let ln_bayes = found.baseline.samples as f64 * f64::from(data.cut_bits) * std::f64::consts::LN_2;
-        strengths = vec![(effects::FIXED_POINT, f64::from(data.cut_bits))];
+        strengths.push((effects::FIXED_POINT, f64::from(data.cut_bits)));
         let score = (2.0 * ln_bayes, 1);
         named.push(Named { name: effects::FIXED_POINT, ln_bayes, score, rivals: Vec::new() });
         Verdict::Explained
@@ -210,6 +210,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     if verdict == Verdict::Clean {
         places.clear();
     }
+    strengths.retain(|(name, _)| named.iter().any(|named| named.name == *name));
     let fit = asserted(data, &found, &named, noise);
     let shared_noise = shared.filter(|noise| noise.level != Level::Pixel).map(words);
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };

@@ -77,15 +77,21 @@ pub struct RandomEffect {
     pub inflation: f64,
 }
 
-/// The random effects of the registry: of a phase, and of a time.
+/// Random errors of frames that the registry has: of the phase, and of the time.
 const JITTERS: [&str; 2] = ["clock_jitter", "timing_jitter_of_frames"];
 /// Of the evidence for a random effect, a second one beside it must have so much, and so many nats besides.
 const SECOND: (f64, f64) = (0.005, 5.0);
 
-/// What frames show of the other jitter beside the `first` one, and what of that then.
+/// Evidence of columns beside random errors which raise their variance by `inflation`, nats.
+fn ordered(location: &Location, inflation: f64) -> f64 {
+    let left = |located: &Located| deflated(inflation, located.ln_bayes, located.chi2.0);
+    location.columns.iter().map(left).fold(0.0, f64::max)
+}
+
+/// Both jitters, where frames show the other one, too, beside the `first`: more clearly than anything orders them.
 pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEffect; 2]> {
-    let both = location.jitters.both()?;
     let number = JITTERS.iter().position(|name| *name == first.name)?;
+    let both = location.jitters.both()?;
     let sigma = [both.phase_rad, both.time_s];
     let of = |number: usize, ln_bayes| RandomEffect {
         name: JITTERS[number],
@@ -93,7 +99,8 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
         ln_bayes,
         ..first
     };
-    let is_clear = both.beside.iter().all(|nats| *nats > SECOND.0 * first.ln_bayes + SECOND.1);
+    let least = SECOND.0 * first.ln_bayes + SECOND.1 + ordered(location, first.inflation);
+    let is_clear = both.beside.iter().all(|nats| *nats > least);
     let other = 1 - number;
     is_clear.then(|| [of(number, first.ln_bayes), of(other, both.beside[other])])
 }
@@ -101,9 +108,7 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
 /// A random effect of the registry, if the strongest errors are what it makes, and nothing orders them.
 pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     let Cluster { level, mode, sigma, ln_bayes, inflation, .. } = **errors(data, location).first()?;
-    let ordered = |located: &Located| deflated(inflation, located.ln_bayes, located.chi2.0);
-    let ordered = location.columns.iter().map(ordered).fold(0.0, f64::max);
-    if ordered > ORDERED_LEFT.0 * ln_bayes + ORDERED_LEFT.1 {
+    if ordered(location, inflation) > ORDERED_LEFT.0 * ln_bayes + ORDERED_LEFT.1 {
         return None;
     }
     let name = match (level, MODES[mode]) {
