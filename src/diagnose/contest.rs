@@ -32,7 +32,7 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
     }
     let sets = data.sets();
     let left = |pieces: &[Piece]| {
-        let fit = fit(data, Some(current), pieces.to_vec(), noise, &|set| sets[set].1 % PART == 0);
+        let fit = fit(data, Some(current), pieces.to_vec(), noise, &|set| sets[set].1.is_multiple_of(PART));
         (fit.chi2 + fit.unreached, fit.columns.len())
     };
     let (before, fitted) = left(&current.pieces);
