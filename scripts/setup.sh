@@ -24,6 +24,7 @@ DEBIAN_TOOLS=(
   "make               | make               | make --version              | make"
   "perl               | perl               | perl -v                     | perl"
   "python3            | python3            | python3 --version           | python3"
+  "ccache             | ccache             | ccache --version            | ccache"
   "zlib headers       | zlib.h             | macro zlib.h ZLIB_VERSION   | zlib1g-dev"
   "lz4 headers        | lz4.h              | macro lz4.h LZ4_VERSION_STRING | liblz4-dev"
   "Icarus Verilog     | iverilog           | iverilog -V                 | iverilog"

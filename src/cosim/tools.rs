@@ -19,6 +19,8 @@ pub const IVERILOG: Tool = Tool { name: "iverilog", remedy: "apt-get install ive
 pub const VVP: Tool = Tool { name: "vvp", remedy: "apt-get install iverilog, or `make setup`" };
 /// Yosys: netlists, mutants and proofs.
 pub const YOSYS: Tool = Tool { name: "yosys", remedy: "apt-get install yosys, or `make setup`" };
+/// A cache of compiled files. No simulation needs it, but the most that Verilator has compiled is its own library, the same in every build.
+const CCACHE: Tool = Tool { name: "ccache", remedy: "apt-get install ccache, or `make setup`" };
 const VERILATOR: Tool = Tool {
     name: "verilator",
     remedy: "`make setup` in the repository; or set VURIS_VERILATOR to the program; or apt-get install verilator",
@@ -99,6 +101,10 @@ impl Verilator {
         };
         // A make that runs us has its own flags and job server.
         command.env_remove("MAKEFLAGS").env_remove("MFLAGS");
+        // Verilator's makefiles take the cache from here; a user's own choice, or none, stays.
+        if std::env::var_os("OBJCACHE").is_none() && find(CCACHE).is_ok() {
+            command.env("OBJCACHE", CCACHE.name);
+        }
         command
     }
 }
