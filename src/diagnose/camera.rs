@@ -46,9 +46,10 @@ pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
             if takes.len() == data.takes.len() { String::new() } else { format!("@{}", takes.join(",")) };
         camera.effects.push(format!("{}:{}{only}", piece.effect.name, values.join(",")));
     }
-    for &(name, strength) in &judgement.random {
+    for (name, strength) in &judgement.random {
         let parameter = crate::physics::effects::named(name).and_then(|effect| effect.parameters.first());
-        camera.effects.extend(parameter.map(|parameter| format!("{name}:{}={strength:?}", parameter.name)));
+        let told = parameter.map(|parameter| format!("{name}:{}={:?}", parameter.name, strength.value));
+        camera.effects.extend(told);
     }
     camera
 }

@@ -5,9 +5,10 @@
 
 use super::data::Data;
 use super::gram::Whitened;
-use super::jitters::{self, Jitters};
+use super::jitters::{Frame, Jitters};
 use super::lines::Sum;
 use super::swings::{Seen, Swing, Swings};
+use super::tamed::tamed;
 use super::waves::{Wave, Waves};
 use super::white::White;
 
@@ -49,12 +50,16 @@ pub const LEVELS: [Level; 6] =
 /// In which way samples may be off together: by so much light (DN), in proportion to the signal, in phase (rad), as if the target
 /// were where it is at another time (s), or, of a set, at another place (m), or, of a set too, with another velocity (m/s).
 pub const MODES: [&str; 5] = ["offset", "gain", "phase", "position", "velocity"];
+/// Of [`MODES`], the phase.
+pub const PHASE: usize = 2;
+/// Of [`MODES`], the position.
+pub const POSITION: usize = 3;
 
 /// The first levels, of which there are few.
 const FEW: usize = 2;
 const STEPS: usize = 14;
-/// Least and greatest standard deviation of each mode.
-const ENDS: [(f64, f64); 5] = [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03), (1e-4, 0.3)];
+/// Least and greatest standard deviation of each mode; a frame's position is a time, s.
+pub const ENDS: [(f64, f64); 5] = [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03), (1e-4, 0.3)];
 
 fn variance(mode: usize, step: f64) -> f64 {
     let (low, high) = ENDS[mode];
@@ -70,6 +75,8 @@ pub struct Cluster {
     pub mode: usize,
     /// Its standard deviation.
     pub sigma: f64,
+    /// How exactly that is known, one standard deviation; 0 where it is not looked at: of rows, columns and pixels.
+    pub known_to: f64,
     /// By how much it raises the variance of what a cluster says.
     pub inflation: f64,
     /// Evidence, nats.
@@ -181,7 +188,7 @@ impl Clusters {
             whitened.roots[pixel].powi(2) * velocity_m_s * frame.position[pixel] * frame.own[1][pixel]
         };
         let shared = if velocity_m_s == 0.0 { 0.0 } else { (0..whitened.roots.len()).map(by_both).sum() };
-        self.jitters.add(jitters::Seen { phase: of_frame[2], time: of_frame[3], shared });
+        self.jitters.add(Frame { phase: of_frame[PHASE], time: of_frame[POSITION], shared });
         if (whitened.index + 1).is_multiple_of(take.frames) {
             let sums = std::mem::take(&mut self.set);
             // Without its light the camera has neither gain nor phase.
@@ -251,10 +258,17 @@ impl Clusters {
         evidence
     }
 
-    /// Standard deviation by the scores' variance.
-    fn moment(&self, level: usize, mode: usize) -> f64 {
+    /// Standard deviation by the scores' variance, and how exactly it is known: a score's square scatters by twice the square of what it is on
+    /// average.
+    fn moment(&self, level: usize, mode: usize) -> (f64, f64) {
         let [_, _, squares, beyond] = self.information[level][mode];
-        if squares > 0.0 { (beyond / squares).max(0.0).sqrt() } else { 0.0 }
+        let variance = if squares > 0.0 { (beyond / squares).max(0.0) } else { 0.0 };
+        if variance == 0.0 {
+            return (0.0, 0.0);
+        }
+        let scatter = |&(_, (_, k)): &(usize, Sum)| 2.0 * (k + variance * k * k).powi(2);
+        let scatter: f64 = self.few[level][mode].iter().map(scatter).sum();
+        (variance.sqrt(), 0.5 * scatter.sqrt() / squares / variance.sqrt())
     }
 
     /// The best of every level and mode that has any evidence, best first.
@@ -268,14 +282,16 @@ impl Clusters {
                 let spread = peak(best, &at);
                 let of_take = |take: &usize| evidence[*take][number][mode][best];
                 let take = (0..evidence.len()).max_by(|a, b| of_take(a).total_cmp(&of_take(b)));
+                // What is tamed must not say how strong it is.
+                let (sigma, known_to) = match level {
+                    Level::Set | Level::Frame => self.moment(number, mode),
+                    _ => (variance(mode, spread).sqrt(), 0.0),
+                };
                 found.push(Cluster {
                     level,
                     mode,
-                    // What is tamed must not say how strong it is.
-                    sigma: match level {
-                        Level::Set | Level::Frame => self.moment(number, mode),
-                        _ => variance(mode, spread).sqrt(),
-                    },
+                    sigma,
+                    known_to,
                     inflation: {
                         let [count, information, ..] = self.information[number][mode];
                         1.0 + variance(mode, spread) * information / count.max(1.0)
@@ -293,26 +309,6 @@ impl Clusters {
         found.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
         found
     }
-}
-
-/// So many, and this share besides, may be outliers; of a normal distribution all but this share are within so many standard deviations.
-const FEW_OUTLIERS: (usize, f64) = (6, 0.04);
-const WITHIN: f64 = 2.05;
-
-/// A set or frame that is off by more than four times the noise, or what is usual among all but a few, counts as four: a few outliers are no effect.
-fn tamed(few: &[(usize, Sum)]) -> Vec<(usize, Sum)> {
-    let seen = few.iter().filter(|(_, (_, information))| *information > 0.0);
-    let mut sizes: Vec<f64> =
-        seen.clone().map(|(_, (score, information))| score.abs() / information.sqrt()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let outliers = FEW_OUTLIERS.0.max((FEW_OUTLIERS.1 * sizes.len() as f64).ceil() as usize);
-    let most = sizes.len().checked_sub(outliers + 1).map(|place| sizes[place]);
-    let usual = most.map_or(1.0, |most| (most / WITHIN).max(1.0));
-    let tame = |&(take, (score, information)): &(usize, Sum)| {
-        let most = 4.0 * usual * information.sqrt();
-        (take, (score.clamp(-most, most), information))
-    };
-    seen.map(tame).collect()
 }
 
 /// Where the evidence is greatest, between the steps: by the parabola through the best one and its neighbours.
@@ -360,18 +356,6 @@ fn of_shared_variance(variance: f64, clusters: &[(f64, f64)]) -> f64 {
 mod tests {
     use super::super::evidence::of_variance;
     use super::*;
-
-    #[test]
-    fn a_few_outliers_count_as_four_and_what_all_do_stays() {
-        let greatest = |far: &dyn Fn(usize) -> bool, count: usize| {
-            let few = (0..count).map(|n| (0, (if far(n) { 30.0 } else { 3.0 }, 9.0)));
-            tamed(&few.collect::<Vec<_>>()).iter().map(|(_, (score, _))| score / 3.0).fold(0.0, f64::max)
-        };
-        for count in [5, 12, 25, 72, 400] {
-            assert!(greatest(&|n| n % 24 == 3 && n < 96, count) < 4.01, "{count}");
-        }
-        assert!(greatest(&|_| true, 400) > 9.99);
-    }
 
     #[test]
     fn clusters_together_are_clusters_one_by_one() {

@@ -10,7 +10,8 @@ use super::pieces::{Piece, tolerance};
 const PART: usize = 7;
 /// So many samples at least: fewer are fitted in no time.
 const LEAST_SAMPLES: usize = 50_000;
-/// What the best one explains of the part, but for what its form may leave, must be more by this chi squared: a part does not say exactly what all sets say.
+/// What the best one explains of the part, but for what its form may leave, must be more by this chi squared: a part does not say
+/// exactly what all sets say.
 const CLEARLY_LESS: f64 = 100.0;
 /// What numbers explain by chance, in standard deviations, at most.
 const BY_CHANCE: f64 = 3.0;
@@ -25,7 +26,8 @@ pub struct Entrant {
     pub pieces: Vec<Piece>,
 }
 
-/// Those of the `entrants`, of which the first one is the best by its tangents and stays, that may explain about as much of what `current` leaves as the best one.
+/// Those of the `entrants` that may explain about as much of what `current` leaves as the best one. The first, the best by its tangents,
+/// stays.
 pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise) -> Vec<Entrant> {
     if entrants.len() < 2 || current.samples / PART < LEAST_SAMPLES {
         return entrants;
@@ -44,7 +46,8 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         (explained, explained - numbers - BY_CHANCE * (2.0 * numbers).sqrt())
     };
     let explained: Vec<(f64, f64)> = entrants.iter().map(explained).collect();
-    let best = entrants.iter().zip(&explained).max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+    let numbers = entrants.iter().zip(&explained).filter(|(_, explained)| explained.1.is_finite());
+    let best = numbers.max_by(|a, b| a.1.1.total_cmp(&b.1.1));
     let (of_best, most) = best.map_or((0.0, 0.0), |(best, explained)| (tolerance(best.name), explained.1));
     let is_hopeful = |entrant: &Entrant, explained: f64| {
         let form = DISBELIEF * tolerance(entrant.name).max(of_best);

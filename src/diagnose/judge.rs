@@ -10,8 +10,8 @@ use super::noise::beyond;
 use super::pass::{DISBELIEF, RIVAL_NATS, THRESHOLD};
 use super::pieces::{OF_OTHER_PIXELS, Piece, tolerance};
 use super::random::{
-    self, ORDERED_SHARE, RandomEffect, coordinate, deflated, errors, inflation, is_noisier, random_effect,
-    two_jitters, words,
+    self, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation, is_noisier,
+    random_effect, two_jitters, words,
 };
 use super::search::{Found, Named, search};
 use super::source::{Shown, is_one, shown};
@@ -73,8 +73,8 @@ pub struct Judgement {
     pub remainder: f64,
     /// What is left by the simulation that the camera describes, and by the fit that is asserted.
     pub locations: [Location; 2],
-    /// Random effects, and their standard deviations.
-    pub random: Vec<(&'static str, f64)>,
+    /// Random effects, and how strong they are.
+    pub random: Vec<(&'static str, Strength)>,
     /// The search behind it.
     pub found: Found,
     /// The fit that is asserted: the baseline where nothing is.
@@ -89,7 +89,7 @@ pub struct Judgement {
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut noise = stated;
     let (mut found, mut end) = searched(data, baseline, noise);
-    let mut in_proportion: f64 = 0.0;
+    let (mut in_proportion, mut square_sigma) = (0.0, 0.0);
     for _ in 0..NOISE_STEPS {
         if !is_noisier(data, &end) {
             break;
@@ -97,6 +97,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         let more = beyond(data, &found.fit, noise);
         noise = more.noise;
         in_proportion += more.in_proportion;
+        square_sigma = f64::max(square_sigma, more.square_sigma);
         (found, end) = searched(data, unfitted(data, noise), noise);
     }
     let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };
@@ -132,8 +133,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // A random effect takes with it what is left at random.
     let random = random_effect(data, &end);
     // Else it is the noise that was stated, and more of it.
-    let sigma = (noise.square - stated.square).max(0.0).sqrt();
-    let excess = RandomEffect { name: "excess_noise", sigma, ln_bayes: in_proportion, inflation: 1.0 };
+    let value = (noise.square - stated.square).max(0.0).sqrt();
+    let strength = Strength { value, sigma: if value > 0.0 { 0.5 * square_sigma / value } else { 0.0 } };
+    let excess = RandomEffect { name: "excess_noise", strength, ln_bayes: in_proportion, inflation: 1.0 };
     let excess = (random.is_none() && in_proportion > 0.0).then_some(excess);
     let is_left = |place: &&Place| {
         random.is_none_or(|random| {
@@ -150,15 +152,15 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let are_raised = random.is_some() || shared.is_some();
     let simpler = !is_far && !are_raised && is_outvoted(&baseline, &found, &named, explained);
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
-    let first = random.or(excess);
-    let two = first.and_then(|first| two_jitters(&end, first));
-    let at_random: Vec<RandomEffect> = two.map_or_else(|| first.into_iter().collect(), |two| two.to_vec());
+    let strongest = random.or(excess);
+    let two = strongest.and_then(|strongest| two_jitters(&end, strongest));
+    let at_random = two.map_or_else(|| strongest.into_iter().collect(), |two| two.to_vec());
     let mut strengths = Vec::new();
-    for &RandomEffect { name, sigma, ln_bayes, .. } in &at_random {
-        strengths.push((name, sigma));
+    for &RandomEffect { name, strength, ln_bayes, .. } in &at_random {
+        strengths.push((name, strength));
         named.push(Named { name, ln_bayes, score: (2.0 * ln_bayes, 1), rivals: Vec::new() });
         if name == "excess_noise" {
-            let shape = format!("noise in proportion to the signal, {:.2} %", 100.0 * sigma);
+            let shape = format!("noise in proportion to the signal, {:.2} %", 100.0 * strength.value);
             let chi2 = (2.0 * ln_bayes, 1);
             places.push(Place {
                 coordinate: "amplitude",
@@ -200,7 +202,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // Codes without their low bits need no statistics.
     let verdict = if data.cut_bits > 0 && matches!(verdict, Verdict::Clean | Verdict::Explained) {
         let ln_bayes = found.baseline.samples as f64 * f64::from(data.cut_bits) * std::f64::consts::LN_2;
-        strengths.push((effects::FIXED_POINT, f64::from(data.cut_bits)));
+        strengths.push((effects::FIXED_POINT, Strength { value: f64::from(data.cut_bits), sigma: 0.0 }));
         let score = (2.0 * ln_bayes, 1);
         named.push(Named { name: effects::FIXED_POINT, ln_bayes, score, rivals: Vec::new() });
         Verdict::Explained

@@ -33,6 +33,7 @@ mod settle;
 mod simpler;
 mod source;
 mod swings;
+mod tamed;
 mod verdict;
 mod waves;
 mod white;

@@ -82,6 +82,8 @@ pub struct Beyond {
     /// Evidence (nats) that some of it is in proportion to the signal, rather than all of it like read and shot noise; 0 where that is not
     /// clear.
     pub in_proportion: f64,
+    /// Standard deviation of the part in proportion to the signal, relative, squared.
+    pub square_sigma: f64,
 }
 
 /// Bins of the signal, evenly over its root.
@@ -129,7 +131,9 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
         slope: stated.slope + parts[1],
         square: stated.square + parts[2],
     };
-    Beyond { noise, in_proportion }
+    // The other parts are as well known as that they are there: those that are not do not scatter it.
+    let square_sigma = sigma_of_square(&points, &parts);
+    Beyond { noise, in_proportion, square_sigma }
 }
 
 /// Variance beyond what was stated, DN², at a signal, and the inverse square of what it is known to.
@@ -139,10 +143,33 @@ struct Point {
     weight: f64,
 }
 
+/// Powers of a signal, whose parts noise has.
+fn powers(signal: f64) -> [f64; 3] {
+    [1.0, signal, signal * signal]
+}
+
+/// Standard deviation of the part of the square, beside those of the `parts` that are there; 0 where it is not.
+fn sigma_of_square(points: &[Point], parts: &[f64; 3]) -> f64 {
+    if parts[2] == 0.0 {
+        return 0.0;
+    }
+    let normal: Matrix3<f64> = points
+        .iter()
+        .map(|point| {
+            let powers = powers(point.signal);
+            let there = Vector3::from_fn(|n, _| if parts[n] > 0.0 { powers[n] } else { 0.0 });
+            point.weight * there * there.transpose()
+        })
+        .sum();
+    let scale = normal.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 0.0 });
+    let scaled = Matrix3::from_fn(|r, c| normal[(r, c)] * scale[r] * scale[c]);
+    let inverse = scaled.pseudo_inverse(1e-9).unwrap_or_default();
+    inverse[(2, 2)].max(0.0).sqrt() * scale[2]
+}
+
 /// The parts of 1, signal and its square that explain the `points` best, of which the first so `many` may be there, and none is negative;
 /// and the weighted squares that they leave.
 fn least(points: &[Point], many: usize) -> ([f64; 3], f64) {
-    let powers = |signal: f64| [1.0, signal, signal * signal];
     let left = |parts: &[f64; 3]| -> f64 {
         let of = |point: &Point| {
             let said: f64 = parts.iter().zip(powers(point.signal)).map(|(part, power)| part * power).sum();
@@ -197,6 +224,9 @@ mod tests {
         assert!((parts[0] - 9.0).abs() < 1e-6 && (parts[1] - 0.05).abs() < 1e-9 && left < 1e-6, "{parts:?}");
         let (parts, left) = least(&points(0.0, 0.0, 1e-4), 3);
         assert!(parts[..2] == [0.0; 2] && (parts[2] - 1e-4).abs() < 1e-12 && left < 1e-6, "{parts:?} {left}");
+        // One number of nineteen points.
+        let normal: f64 = (1..20).map(|n| 1e4 * (50.0 * f64::from(n)).powi(4)).sum();
+        assert!((sigma_of_square(&points(0.0, 0.0, 1e-4), &parts) * normal.sqrt() - 1.0).abs() < 1e-9);
         // Shot noise is the nearest to it that may be without it, and less than nothing is no noise.
         assert!(least(&points(0.0, 0.0, 1e-4), 2).1 > 1e3);
         assert_eq!(least(&points(-2.0, 0.0, 0.0), 3).0, [0.0; 3]);

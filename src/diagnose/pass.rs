@@ -58,6 +58,13 @@ pub struct Alone {
     pub ln_bayes: f64,
 }
 
+impl Alone {
+    /// The one of this `name` among `all`.
+    pub fn of<'a>(all: &'a [Self], name: &str) -> Option<&'a Self> {
+        all.iter().find(|alone| alone.name == name)
+    }
+}
+
 /// What one pass says of all candidates.
 #[derive(Debug, Clone, Default)]
 pub struct Pass {
@@ -224,6 +231,8 @@ impl Pass {
         let explained = |fit: &Fit| before - fit.chi2 - fit.unreached;
         let judged = |(block, fit): (usize, Fit)| (self.fitted_ln_bayes(block, before, &fit), block, fit);
         let mut judged: Vec<(f64, usize, Fit)> = fits.map(judged).collect();
+        // A model that is no number anywhere fits nothing.
+        judged.retain(|fitted| fitted.0.is_finite());
         judged.sort_by(|a, b| b.0.total_cmp(&a.0));
         // Far from the baseline no form is exact: of those that explain about as much as the best one, the simplest.
         let most = explained(&judged.first()?.2);

@@ -64,13 +64,22 @@ pub fn deflated(inflation: f64, ln_bayes: f64, chi2: f64) -> f64 {
     ln_bayes - 0.5 * chi2 * (1.0 - 1.0 / inflation)
 }
 
+/// How strong a random effect is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strength {
+    /// Its only parameter: a standard deviation, as a rule.
+    pub value: f64,
+    /// How exactly that is known, one standard deviation.
+    pub sigma: f64,
+}
+
 /// A random effect of the registry.
 #[derive(Debug, Clone, Copy)]
 pub struct RandomEffect {
     /// Its name.
     pub name: &'static str,
-    /// Its standard deviation.
-    pub sigma: f64,
+    /// How strong it is.
+    pub strength: Strength,
     /// Evidence, nats.
     pub ln_bayes: f64,
     /// By how much it raises the variance of what columns say.
@@ -92,10 +101,9 @@ fn ordered(location: &Location, inflation: f64) -> f64 {
 pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEffect; 2]> {
     let number = JITTERS.iter().position(|name| *name == first.name)?;
     let both = location.jitters.both()?;
-    let sigma = [both.phase_rad, both.time_s];
     let of = |number: usize, ln_bayes| RandomEffect {
         name: JITTERS[number],
-        sigma: sigma[number],
+        strength: both.strengths[number],
         ln_bayes,
         ..first
     };
@@ -107,7 +115,8 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
 
 /// A random effect of the registry, if the strongest errors are what it makes, and nothing orders them.
 pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
-    let Cluster { level, mode, sigma, ln_bayes, inflation, .. } = **errors(data, location).first()?;
+    let Cluster { level, mode, sigma, known_to, ln_bayes, inflation, .. } =
+        **errors(data, location).first()?;
     if ordered(location, inflation) > ORDERED_LEFT.0 * ln_bayes + ORDERED_LEFT.1 {
         return None;
     }
@@ -116,7 +125,7 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
         (Level::Frame, "position") => JITTERS[1],
         _ => return None,
     };
-    Some(RandomEffect { name, sigma, ln_bayes, inflation })
+    Some(RandomEffect { name, strength: Strength { value: sigma, sigma: known_to }, ln_bayes, inflation })
 }
 
 /// The coordinate of a verdict in which errors that samples share are located.

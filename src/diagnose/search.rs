@@ -59,7 +59,7 @@ pub struct Found {
 impl Found {
     /// The candidate `name` alone at the baseline; nothing where it is none.
     pub fn alone(&self, name: &str) -> Option<&Alone> {
-        self.alone.iter().find(|alone| alone.name == name)
+        Alone::of(&self.alone, name)
     }
 
     /// Whether an effect is named that explains less than the forms of those before it may leave.
@@ -89,8 +89,7 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
         let is_far = baseline.is_far_from(&current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
         // What would have explained most of the first one is what the form of that leaves.
-        let before =
-            |name: &str| alone.iter().find(|alone| alone.name == name).map_or(0.0, |alone| alone.chi2);
+        let before = |name: &str| Alone::of(&alone, name).map_or(0.0, |alone| alone.chi2);
         let of_first = named.first().map_or(f64::INFINITY, |named| before(named.name));
         let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
         let trusts = trust && !is_far && named.len() < MOST_TRUSTED;

@@ -345,13 +345,13 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRo
         }
     }
     if rows.is_empty() {
-        // A random effect is not fitted: its strength is the cluster's.
-        let cluster = judgement.random.iter().copied().find(|(random, _)| *random == name);
+        // A random effect is not fitted with the others: its strength is from what they leave.
+        let random = judgement.random.iter().copied().find(|(random, _)| *random == name);
         let parameter = data.effect(name).and_then(|effect| effect.parameters.first());
-        rows.extend(cluster.zip(parameter).map(|((_, sigma), parameter)| ParameterRow {
+        rows.extend(random.zip(parameter).map(|((_, strength), parameter)| ParameterRow {
             name: parameter.name.to_owned(),
-            value: sigma,
-            sigma: 0.2 * sigma,
+            value: strength.value,
+            sigma: strength.sigma,
             unit: parameter.unit,
         }));
     }
