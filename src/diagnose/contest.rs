@@ -38,22 +38,57 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         (fit.chi2 + fit.unreached, fit.columns.len())
     };
     let (before, fitted) = left(&current.pieces);
-    // What it explains, and of that what is no chance.
     let explained = |entrant: &Entrant| {
         let (left, numbers) = left(&entrant.pieces);
         let numbers = numbers.saturating_sub(fitted) as f64;
-        let explained = before - left;
-        (explained, explained - numbers - BY_CHANCE * (2.0 * numbers).sqrt())
+        let all = before - left;
+        let no_chance = all - numbers - BY_CHANCE * (2.0 * numbers).sqrt();
+        Explained { all, no_chance, form: tolerance(entrant.name) }
     };
-    let explained: Vec<(f64, f64)> = entrants.iter().map(explained).collect();
-    let numbers = entrants.iter().zip(&explained).filter(|(_, explained)| explained.1.is_finite());
-    let best = numbers.max_by(|a, b| a.1.1.total_cmp(&b.1.1));
-    let (of_best, most) = best.map_or((0.0, 0.0), |(best, explained)| (tolerance(best.name), explained.1));
-    let is_hopeful = |entrant: &Entrant, explained: f64| {
-        let form = DISBELIEF * tolerance(entrant.name).max(of_best);
-        explained > (1.0 - form) * most - CLEARLY_LESS
+    let stay = staying(&entrants.iter().map(explained).collect::<Vec<_>>());
+    entrants.into_iter().zip(stay).filter(|(_, stays)| *stays).map(|(entrant, _)| entrant).collect()
+}
+
+/// What an entrant explains of a part of the sets, chi squared.
+struct Explained {
+    all: f64,
+    /// Of that, what is no chance.
+    no_chance: f64,
+    /// The share that its form may leave.
+    form: f64,
+}
+
+/// Which stay, of which the first one does in any case.
+fn staying(explained: &[Explained]) -> Vec<bool> {
+    let numbers = explained.iter().filter(|explained| explained.no_chance.is_finite());
+    let best = numbers.max_by(|a, b| a.no_chance.total_cmp(&b.no_chance));
+    let (most, form_of_best) = best.map_or((0.0, 0.0), |best| (best.no_chance, best.form));
+    let is_hopeful = |explained: &Explained| {
+        let form = DISBELIEF * explained.form.max(form_of_best);
+        explained.all > (1.0 - form) * most - CLEARLY_LESS
     };
-    let with_explained = entrants.into_iter().zip(explained).enumerate();
-    let stay = with_explained.filter(|(number, (entrant, e))| *number == 0 || is_hopeful(entrant, e.0));
-    stay.map(|(_, (entrant, _))| entrant).collect()
+    explained.iter().enumerate().map(|(number, explained)| number == 0 || is_hopeful(explained)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_part_speaks_against_clearly_goes_but_for_the_first() {
+        let of = |all: f64, no_chance: f64, form: f64| Explained { all, no_chance, form };
+        let exact = |all: f64| of(all, all - 5.0, 0.01);
+        assert_eq!(staying(&[]), [false; 0]);
+        // The best one has its 5 by chance; of 2000 a form of one per cent may leave three times that, and a part says chi squared to 100.
+        assert_eq!(
+            staying(&[exact(1.0), exact(2005.0), exact(1841.0), exact(1839.0)]),
+            [true, true, true, false]
+        );
+        // A looser form may leave more, be it the best one's or its own.
+        assert_eq!(staying(&[exact(2005.0), of(1700.0, 1695.0, 0.08)]), [true, true]);
+        assert_eq!(staying(&[of(2005.0, 2000.0, 0.08), exact(1700.0)]), [true, true]);
+        assert_eq!(staying(&[exact(2005.0), exact(1700.0)]), [true, false]);
+        // A fit that is no number is not the best one, nor hopeful.
+        assert_eq!(staying(&[exact(1.0), of(f64::NAN, f64::NAN, 0.01), exact(1e3)]), [true, false, true]);
+    }
 }

@@ -36,7 +36,7 @@ pub struct Evidence<'a> {
 }
 
 /// A model and its evidence against the baseline.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     /// Numbers of blocks, of different candidates.
     pub blocks: Vec<usize>,

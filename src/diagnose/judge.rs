@@ -13,7 +13,7 @@ use super::random::{
     self, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation, is_noisier,
     random_effect, two_jitters, words,
 };
-use super::search::{Found, Named, search};
+use super::search::{Found, Named, Search};
 use super::source::{Shown, is_one, shown};
 use crate::physics::effects;
 
@@ -299,15 +299,18 @@ fn asserted(data: &Data, found: &Found, named: &[Named], noise: Noise) -> Fit {
 
 /// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not.
 fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, Location) {
-    let found = search(data, baseline.clone(), noise, true);
+    let (found, without_trust) = Search::new(data, baseline, noise).with_trust();
     let end = locate(data, &found.fit, noise);
     // Far from the baseline no form was trusted.
-    if found.baseline.is_far_from(&found.fit) || !found.trusts_forms() || places(data, &end).is_empty() {
-        return (found, end);
+    let is_far = found.baseline.is_far_from(&found.fit);
+    match without_trust.filter(|_| !is_far && found.trusts_forms() && !places(data, &end).is_empty()) {
+        Some(search) => {
+            let found = search.without_trust();
+            let end = locate(data, &found.fit, noise);
+            (found, end)
+        }
+        None => (found, end),
     }
-    let found = search(data, baseline, noise, false);
-    let end = locate(data, &found.fit, noise);
-    (found, end)
 }
 
 /// Coordinates that stand out, most significant first.

@@ -6,7 +6,7 @@ use super::evidence::Model;
 use super::fit::{Fit, fit};
 use super::gram::Noise;
 use super::pass::{Alone, Detectable, Pass, THRESHOLD};
-use super::pieces::{Piece, candidates, tolerance};
+use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::simpler::Simpler;
 use std::collections::BTreeSet;
 
@@ -74,54 +74,111 @@ fn tolerated(named: &[Named]) -> f64 {
     named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
 }
 
-/// Searches `data`, to which `baseline` was fitted without any effect.
-///
-/// With `trust` in the forms of effects, one that explains less than the others' forms may leave is named nevertheless, on clear evidence.
-pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
-    let mut alone: Vec<Alone> = Vec::new();
-    let mut current = baseline.clone();
-    let mut named: Vec<Named> = Vec::new();
-    let mut first: Option<Pass> = None;
-    loop {
-        let candidates = candidates(data, &current.series);
-        let pass = Pass::of(data, &current, &candidates, noise);
+/// A search, as far as it has come.
+#[derive(Debug)]
+pub struct Search<'a> {
+    data: &'a Data,
+    noise: Noise,
+    baseline: Fit,
+    /// The fit with what is named.
+    current: Fit,
+    named: Vec<Named>,
+    /// The pass at the baseline, and what it says of each candidate alone.
+    first: Option<(Pass, Vec<Alone>)>,
+    is_over: bool,
+}
+
+impl<'a> Search<'a> {
+    /// Of `data`, to which `baseline` was fitted without any effect.
+    pub fn new(data: &'a Data, baseline: Fit, noise: Noise) -> Self {
+        let current = baseline.clone();
+        Self { data, noise, baseline, current, named: Vec::new(), first: None, is_over: false }
+    }
+
+    /// What it finds when the forms of effects are trusted: what explains less than the others' forms may leave is named nevertheless, on clear
+    /// evidence. And the search without trust, as far as both are the same, where they are not.
+    pub fn with_trust(mut self) -> (Found, Option<Self>) {
+        let mut without = None;
+        while !self.is_over {
+            if let Some(other) = self.go_on(true) {
+                without.get_or_insert(other);
+            }
+        }
+        (self.found(), without)
+    }
+
+    /// What it finds without trust.
+    pub fn without_trust(mut self) -> Found {
+        while !self.is_over {
+            self.go_on(false);
+        }
+        self.found()
+    }
+
+    fn found(mut self) -> Found {
+        drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
+        let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
+        let Self { baseline, current, named, .. } = self;
+        Found { baseline, fit: current, named, invisible, detectable, alone, simpler }
+    }
+
+    /// Names what comes next, if anything does. Where that is a question of `trust`: the search without it.
+    fn go_on(&mut self, trust: bool) -> Option<Self> {
+        let (data, noise) = (self.data, self.noise);
+        let candidates = candidates(data, &self.current.series);
+        let pass = Pass::of(data, &self.current, &candidates, noise);
+        let (_, alone) = self.first.get_or_insert_with(|| (pass.clone(), pass.alone(&candidates)));
         // Far from the baseline forms are not that well known.
-        let is_far = baseline.is_far_from(&current);
+        let is_far = self.baseline.is_far_from(&self.current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
         // What would have explained most of the first one is what the form of that leaves.
-        let before = |name: &str| Alone::of(&alone, name).map_or(0.0, |alone| alone.chi2);
-        let of_first = named.first().map_or(f64::INFINITY, |named| before(named.name));
+        let before = |name: &str| Alone::of(alone, name).map_or(0.0, |alone| alone.chi2);
+        let of_first = self.named.first().map_or(f64::INFINITY, |named| before(named.name));
         let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
-        let trusts = trust && !is_far && named.len() < MOST_TRUSTED;
+        let trusts = trust && !is_far && self.named.len() < MOST_TRUSTED;
         let is_trusted = |candidate: usize| trusts && !is_alike(candidate);
-        let next = pass.next(named.len(), share * tolerated(&named), &is_trusted);
-        first.get_or_insert_with(|| {
-            alone = pass.alone(&candidates);
-            pass.clone()
+        let tolerated = share * tolerated(&self.named);
+        let next = pass.next(self.named.len(), tolerated, &is_trusted);
+        let without = pass.next(self.named.len(), tolerated, &|_| false);
+        let without = (without != next).then(|| Self {
+            baseline: self.baseline.clone(),
+            current: self.current.clone(),
+            named: self.named.clone(),
+            first: self.first.clone(),
+            is_over: without.is_none(),
+            ..*self
         });
-        let Some((best, whole)) = next else { break };
-        if best.blocks.len() + named.len() > MOST_EFFECTS {
-            break;
+        match next {
+            Some((best, whole)) if best.blocks.len() + self.named.len() <= MOST_EFFECTS => {
+                self.is_over = !self.name(&pass, &candidates, best, &whole);
+            }
+            _ => self.is_over = true,
         }
-        let mut rivals = pass.rivals(&whole, &candidates);
+        without
+    }
+
+    /// Fits what a `pass` says is `best` next, where that is a part of the model `whole`, and names it, if the fit keeps it.
+    fn name(&mut self, pass: &Pass, candidates: &[Candidate], best: Model, whole: &Model) -> bool {
+        let Self { data, noise, ref current, .. } = *self;
+        let mut rivals = pass.rivals(whole, candidates);
         let pieces = |blocks: &[usize]| -> Vec<Piece> {
             let more = blocks.iter().map(|&block| &pass.blocks[block]);
             let more = more.flat_map(|b| candidates[b.candidate].variants[b.variant].pieces.iter().cloned());
             current.pieces.iter().cloned().chain(more).collect()
         };
-        let fitted = |pieces: Vec<Piece>| fit(data, Some(&current), pieces, noise, &|_| true);
+        let fitted = |pieces: Vec<Piece>| fit(data, Some(current), pieces, noise, &|_| true);
         let with = |blocks: &[usize]| fitted(pieces(blocks));
         let lead = |is_far: bool| {
-            let (leaders, others) = pass.leaders(&whole, is_far)?;
+            let (leaders, others) = pass.leaders(whole, is_far)?;
             let contest = |others: &[usize]| {
                 let entrant = |&block: &usize| Entrant {
                     block,
-                    name: pass.name(block, &candidates),
+                    name: pass.name(block, candidates),
                     pieces: pieces(&[&[block], others].concat()),
                 };
-                let entrants = hopeful(data, &current, leaders.iter().map(entrant).collect(), noise);
+                let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
                 let fits = entrants.into_iter().map(|entrant| (entrant.block, fitted(entrant.pieces)));
-                pass.fittest(current.chi2, fits, &candidates, is_far)
+                pass.fittest(current.chi2, fits, candidates, is_far)
             };
             let (mut single, mut fitted, mut near) = contest(&others)?;
             if !others.is_empty() && single.ln_bayes < THRESHOLD {
@@ -141,39 +198,37 @@ pub fn search(data: &Data, baseline: Fit, noise: Noise, trust: bool) -> Found {
             let ln_bayes = single.ln_bayes + 0.5 * (chi2 - complete.chi2);
             Some((Model { ln_bayes, ..single }, complete, near))
         };
-        let is_far = pass.is_far(&whole, current.samples);
+        let is_far = pass.is_far(whole, current.samples);
         let first_choice = lead(is_far).unwrap_or_else(|| (best.clone(), with(&best.blocks), Vec::new()));
         // A fit that does not keep half of what tangents promise is too far from them.
         let is_broken = current.chi2 - first_choice.1.chi2 < KEPT_SHARE * pass.promised(&first_choice.0);
         let choice = if is_broken && !is_far { lead(true).unwrap_or(first_choice) } else { first_choice };
         let (best, fitted, near) = choice;
         rivals.extend(near);
-        let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, &candidates) == rival);
+        let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, candidates) == rival);
         rivals.retain(|rival| !own(rival));
-        rivals.extend(pass.near(&best, &candidates));
+        rivals.extend(pass.near(&best, candidates));
         let mut known = BTreeSet::new();
         rivals.retain(|rival| known.insert(rival.clone()));
         let gain = current.chi2 - fitted.chi2;
         // What its tangents promise, and its form cannot keep.
         if gain < 2.0 * THRESHOLD {
-            break;
+            return false;
         }
         // Of one alone it is known what it explains.
         let explained = |chi2: f64| if best.blocks.len() == 1 { gain } else { chi2.min(gain) };
         for &block in &best.blocks {
             let block_of = &pass.blocks[block];
-            named.push(Named {
+            self.named.push(Named {
                 name: candidates[block_of.candidate].effect.name,
                 ln_bayes: best.ln_bayes,
                 score: pass.scores[block].map_or((0.0, 0), |(chi2, degrees)| (explained(chi2), degrees)),
                 rivals: rivals.clone(),
             });
         }
-        current = fitted;
+        self.current = fitted;
+        true
     }
-    drop_needless(data, noise, &mut current, &mut named);
-    let Pass { invisible, detectable, simpler, .. } = first.unwrap_or_default();
-    Found { baseline, fit: current, named, invisible, detectable, alone, simpler }
 }
 
 /// `fit`, or, where it says with one number what others say in another way, a fit with all of them, if that is better: far from the
