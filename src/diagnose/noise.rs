@@ -131,9 +131,7 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
         slope: stated.slope + parts[1],
         square: stated.square + parts[2],
     };
-    // The other parts are as well known as that they are there: those that are not do not scatter it.
-    let square_sigma = sigma_of_square(&points, &parts);
-    Beyond { noise, in_proportion, square_sigma }
+    Beyond { noise, in_proportion, square_sigma: sigma_of_square(&points, &parts) }
 }
 
 /// Variance beyond what was stated, DN², at a signal, and the inverse square of what it is known to.
@@ -148,21 +146,23 @@ fn powers(signal: f64) -> [f64; 3] {
     [1.0, signal, signal * signal]
 }
 
-/// Standard deviation of the part of the square, beside those of the `parts` that are there; 0 where it is not.
-fn sigma_of_square(points: &[Point], parts: &[f64; 3]) -> f64 {
-    if parts[2] == 0.0 {
-        return 0.0;
+/// The normal equations of the parts that `are_there`: matrix and right side, over the roots of the diagonal, and the inverses of these.
+fn normal(points: &[Point], are_there: [bool; 3]) -> (Matrix3<f64>, Vector3<f64>, Vector3<f64>) {
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for point in points {
+        let powers = powers(point.signal);
+        let there = Vector3::from_fn(|n, _| if are_there[n] { powers[n] } else { 0.0 });
+        normal += point.weight * there * there.transpose();
+        right += point.weight * point.more * there;
     }
-    let normal: Matrix3<f64> = points
-        .iter()
-        .map(|point| {
-            let powers = powers(point.signal);
-            let there = Vector3::from_fn(|n, _| if parts[n] > 0.0 { powers[n] } else { 0.0 });
-            point.weight * there * there.transpose()
-        })
-        .sum();
     let scale = normal.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 0.0 });
     let scaled = Matrix3::from_fn(|r, c| normal[(r, c)] * scale[r] * scale[c]);
+    (scaled, right.component_mul(&scale), scale)
+}
+
+/// Standard deviation of the part of the square, beside those of the `parts` that are there; 0 where it is not.
+fn sigma_of_square(points: &[Point], parts: &[f64; 3]) -> f64 {
+    let (scaled, _, scale) = normal(points, parts.map(|part| part > 0.0));
     let inverse = scaled.pseudo_inverse(1e-9).unwrap_or_default();
     inverse[(2, 2)].max(0.0).sqrt() * scale[2]
 }
@@ -178,16 +178,8 @@ fn least(points: &[Point], many: usize) -> ([f64; 3], f64) {
         points.iter().map(of).sum()
     };
     let solved = |which: usize| -> Option<[f64; 3]> {
-        let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
-        for point in points {
-            let powers = powers(point.signal);
-            let there = Vector3::from_fn(|n, _| if which >> n & 1 == 1 { powers[n] } else { 0.0 });
-            normal += point.weight * there * there.transpose();
-            right += point.weight * point.more * there;
-        }
-        let scale = normal.diagonal().map(|d| if d > 0.0 { d.sqrt().recip() } else { 0.0 });
-        let scaled = Matrix3::from_fn(|r, c| normal[(r, c)] * scale[r] * scale[c]);
-        let solution = scaled.svd(true, true).solve(&right.component_mul(&scale), 1e-9).ok()?;
+        let (scaled, right, scale) = normal(points, [0, 1, 2].map(|n| which >> n & 1 == 1));
+        let solution = scaled.svd(true, true).solve(&right, 1e-9).ok()?;
         let parts: [f64; 3] = solution.component_mul(&scale).into();
         parts.iter().all(|part| *part >= 0.0).then_some(parts)
     };
@@ -227,6 +219,7 @@ mod tests {
         // One number of nineteen points.
         let normal: f64 = (1..20).map(|n| 1e4 * (50.0 * f64::from(n)).powi(4)).sum();
         assert!((sigma_of_square(&points(0.0, 0.0, 1e-4), &parts) * normal.sqrt() - 1.0).abs() < 1e-9);
+        assert_eq!(sigma_of_square(&points(9.0, 0.05, 0.0), &[9.0, 0.05, 0.0]), 0.0);
         // Shot noise is the nearest to it that may be without it, and less than nothing is no noise.
         assert!(least(&points(0.0, 0.0, 1e-4), 2).1 > 1e3);
         assert_eq!(least(&points(-2.0, 0.0, 0.0), 3).0, [0.0; 3]);
