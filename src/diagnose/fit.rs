@@ -214,7 +214,7 @@ pub fn fit(
                 pixels = settled(data, &pixels, &pieces, noise, counts);
             }
             let there = Round::new(data, &pixels, &pieces, noise, counts);
-            (there.square <= WORSE * round.square).then_some((pixels, pieces, there))
+            there.is_no_worse_than(&round).then_some((pixels, pieces, there))
         });
         // Where not even a small step is one to the better, this is the end.
         let Some(better) = stepped else { break };
@@ -276,6 +276,13 @@ impl Round {
 
     fn is_far(&self) -> bool {
         self.square > FAR * self.samples as f64
+    }
+
+    /// Near the minimum the likelihood must not fall, which counts what the sets' positions and the pixels' own numbers will yet take away; far from it
+    /// tangents do not tell that, and the sum of squares says where to go.
+    fn is_no_worse_than(&self, before: &Self) -> bool {
+        let is_likely = self.projected.chi2 <= before.projected.chi2 + ENOUGH;
+        self.square <= WORSE * before.square && (is_likely || before.is_far())
     }
 
     /// `pixels` and `pieces`, moved by the step with so much `damping`.
