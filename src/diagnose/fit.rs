@@ -278,11 +278,11 @@ impl Round {
         self.square > FAR * self.samples as f64
     }
 
-    /// Near the minimum the likelihood must not fall, which counts what the sets' positions and the pixels' own numbers will yet take away; far from it
-    /// tangents do not tell that, and the sum of squares says where to go.
+    /// Near the minimum either the sum of squares or what the sets' positions and the pixels' own numbers will yet leave of it must not grow; far from
+    /// it neither tells much, and it may grow a little.
     fn is_no_worse_than(&self, before: &Self) -> bool {
-        let is_likely = self.projected.chi2 <= before.projected.chi2 + ENOUGH;
-        self.square <= WORSE * before.square && (is_likely || before.is_far())
+        let is_better = self.square <= before.square || self.projected.chi2 <= before.projected.chi2 + ENOUGH;
+        self.square <= WORSE * before.square && (is_better || before.is_far())
     }
 
     /// `pixels` and `pieces`, moved by the step with so much `damping`.
