@@ -156,7 +156,7 @@ fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
 const ITERATIONS: usize = 12;
 /// A step that would lower chi squared by less is none: a standard deviation of one number is 1.
 const ENOUGH: f64 = 0.1;
-/// A step that makes the sum of squares so many times greater is damped (Levenberg 1944, Marquardt 1963).
+/// No step may make the sum of squares so many times greater: it is damped (Levenberg 1944, Marquardt 1963).
 const WORSE: f64 = 1.01;
 const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
 
@@ -200,32 +200,73 @@ pub fn fit(
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> Fit {
-    let mut pixels = from.map_or_else(|| start(data, noise, counts), |fit| Arc::clone(&fit.pixels));
+    let pixels = from.map_or_else(|| start(data, noise, counts), |fit| Arc::clone(&fit.pixels));
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
-    let mut round = Round::new(data, &pixels, &pieces, noise, counts);
+    let round = Round::new(data, &pixels, &pieces, noise, counts);
+    let mut here = Model { pixels, pieces, round };
+    let mut best: Option<Model> = None;
+    let mut may_grow = true;
     for _ in 0..ITERATIONS {
-        if round.gain < ENOUGH {
-            break;
+        if here.round.gain >= ENOUGH
+            && let Some(there) = here.stepped(may_grow, data, noise, counts)
+        {
+            let is_slow = there.round.square > (1.0 - SLOW) * here.round.square;
+            let left = std::mem::replace(&mut here, there);
+            if best.as_ref().is_none_or(|best| left.is_below(best)) {
+                best = Some(left);
+            }
+            // Far from any minimum, what hardly moves will not come there.
+            if !(is_slow && here.round.is_far()) {
+                continue;
+            }
         }
-        let stepped = DAMPINGS.into_iter().find_map(|damping| {
-            let (mut pixels, pieces) = round.step(&pixels, pieces.clone(), damping);
-            if round.is_far() {
+        // This is the end, unless the way led uphill and not down again: then back to where it was best, and downhill from there.
+        let Some(below) = best.take_if(|best| may_grow && best.is_below(&here)) else { break };
+        (here, may_grow) = (below, false);
+    }
+    best.filter(|best| best.is_below(&here)).unwrap_or(here).end()
+}
+
+/// A model, and the normal equations around it.
+struct Model {
+    pixels: Arc<Pixels>,
+    pieces: Vec<Piece>,
+    round: Round,
+}
+
+impl Model {
+    /// After the first step, of the whole one and damped ones, that does not make the mismatch greater, or, where it `may_grow`, not much.
+    fn stepped(
+        &self,
+        may_grow: bool,
+        data: &Data,
+        noise: Noise,
+        counts: &(dyn Fn(usize) -> bool + Sync),
+    ) -> Option<Self> {
+        DAMPINGS.into_iter().find_map(|damping| {
+            let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), damping);
+            if self.round.is_far() {
                 pixels = settled(data, &pixels, &pieces, noise, counts);
             }
-            let there = Round::new(data, &pixels, &pieces, noise, counts);
-            (there.square <= WORSE * round.square).then_some((pixels, pieces, there))
-        });
-        // Where not even a small step is one to the better, this is the end.
-        let Some(better) = stepped else { break };
-        let is_slow = better.2.square > (1.0 - SLOW) * round.square;
-        (pixels, pieces, round) = better;
-        // Far from any minimum, what hardly moves will not come there.
-        if is_slow && round.is_far() {
-            break;
-        }
+            let round = Round::new(data, &pixels, &pieces, noise, counts);
+            let most = if may_grow { WORSE * self.round.square } else { self.round.square };
+            let is_taken = round.square <= most || !may_grow && round.left() <= self.round.left();
+            is_taken.then_some(Self { pixels, pieces, round })
+        })
     }
-    round.end(pixels, pieces)
+
+    /// Whether its likelihood is clearly greater.
+    fn is_below(&self, other: &Self) -> bool {
+        self.round.left() + ENOUGH < other.round.left()
+    }
+
+    fn end(self) -> Fit {
+        let Self { pixels, pieces, round: Round { columns, projected, sigma, gain, samples, series, .. } } =
+            self;
+        let Projected { chi2, jitter_m2, .. } = projected;
+        Fit { pixels, pieces, columns, sigma, chi2, unreached: gain, samples, jitter_m2, series }
+    }
 }
 
 /// The fit without any effect.
@@ -278,6 +319,11 @@ impl Round {
         self.square > FAR * self.samples as f64
     }
 
+    /// Minus twice the logarithm of the likelihood, but for a constant, with the pixels' numbers as they are: what a step promises to take away need not go.
+    fn left(&self) -> f64 {
+        self.projected.chi2 + self.projected.settled
+    }
+
     /// `pixels` and `pieces`, moved by the step with so much `damping`.
     fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>, damping: f64) -> (Arc<Pixels>, Vec<Piece>) {
         let damped =
@@ -295,12 +341,6 @@ impl Round {
         }
         free_shapes(&mut pieces);
         (pixels, pieces)
-    }
-
-    fn end(self, pixels: Arc<Pixels>, pieces: Vec<Piece>) -> Fit {
-        let Self { columns, projected, sigma, gain, samples, series, .. } = self;
-        let Projected { chi2, jitter_m2, .. } = projected;
-        Fit { pixels, pieces, columns, sigma, chi2, unreached: gain, samples, jitter_m2, series }
     }
 }
 

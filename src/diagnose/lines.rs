@@ -150,7 +150,8 @@ impl Series {
     /// The strongest line in the encoder's reading, cycles a metre.
     pub fn in_position(&self) -> Option<Line> {
         let sets = self.sets.iter().map(|seen| (seen.reading_m, seen.position)).collect();
-        strongest(&[sets], CYCLES_M, 0.0)
+        // Nothing tells how far away the target is but the readings: a constant is free.
+        strongest_of(&[sets], CYCLES_M, 0.0, true)
     }
 }
 
@@ -168,7 +169,18 @@ fn longest(groups: &[Vec<(f64, Sum)>]) -> f64 {
 /// The strongest line of all groups, each with a phase of its own (Lomb 1976, with the information as weights).
 ///
 /// Not those that go through whole turns within `period`, or nearly.
-pub fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f64) -> Option<Line> {
+pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> Option<Line> {
+    strongest_of(groups, ends, period, false)
+}
+
+/// The same beside a constant of each group, where there may be one (Zechmeister and Kürster 2009): of few cycles sine and cosine have a mean,
+/// and a line that is seen at few places has images of many cycles, which have none.
+fn strongest_of(
+    groups: &[Vec<(f64, Sum)>],
+    (low, high): (f64, f64),
+    period: f64,
+    constant: bool,
+) -> Option<Line> {
     let longest = longest(groups);
     if longest <= 0.0 {
         return None;
@@ -187,7 +199,7 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f6
         let numbers = start..(start + TOGETHER).min(count);
         let mut powers = vec![0.0; numbers.len()];
         for group in groups {
-            add_powers(group, low + start as f64 * step, step, &mut powers);
+            add_powers(group, low + start as f64 * step, step, constant, &mut powers);
         }
         powers.into_iter().zip(numbers).map(|(power, number)| if is_drift(number) { 0.0 } else { power })
     });
@@ -199,7 +211,7 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), period: f6
 /// Chi squared that a line of this frequency explains in a group.
 pub fn power(group: &[(f64, Sum)], frequency: f64) -> f64 {
     let mut power = [0.0];
-    add_powers(group, frequency, 0.0, &mut power);
+    add_powers(group, frequency, 0.0, false, &mut power);
     power[0]
 }
 
@@ -219,7 +231,7 @@ fn own(group: &[(f64, Sum)], frequency: f64, step: f64) -> f64 {
     let window = (MAINS_OFF * frequency / step).floor();
     let low = frequency - window * step;
     let mut powers = vec![0.0; 2 * window as usize + 1];
-    add_powers(group, low, step, &mut powers);
+    add_powers(group, low, step, false, &mut powers);
     let common = powers[window as usize];
     let best = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b])).unwrap_or(0);
     let seen = group.iter().filter(|(_, sum)| sum.1 > 0.0).count();
@@ -265,16 +277,19 @@ struct Turning {
     turn: (f64, f64),
 }
 
-/// Adds the powers at `frequency` and at those after it, each `step` above the last.
-fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, powers: &mut [f64]) {
+/// Adds the powers at `frequency` and at those after it, each `step` above the last, beside a `constant`, where there may be one.
+fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, constant: bool, powers: &mut [f64]) {
     let angle = |turns: f64| cos_sin(TAU * (turns - turns.floor()));
     let turning = |&(at, (score, information)): &(f64, Sum)| {
         let (cosine, sine) = angle(at * frequency);
         Turning { score, information, cosine, sine, turn: angle(at * step) }
     };
     let mut samples: Vec<Turning> = group.iter().map(turning).collect();
+    let (score, information) =
+        samples.iter().fold((0.0, 0.0), |sums, sample| (sums.0 + sample.score, sums.1 + sample.information));
     for power in powers {
         let (mut c, mut s, mut cc, mut ss, mut cs) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let (mut of_cosine, mut of_sine) = (0.0, 0.0);
         for sample in &mut samples {
             let Turning { score, information, cosine, sine, turn } = *sample;
             c += score * cosine;
@@ -282,8 +297,16 @@ fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, powers: &mut [f64
             cc += information * cosine * cosine;
             ss += information * sine * sine;
             cs += information * cosine * sine;
+            of_cosine += information * cosine;
+            of_sine += information * sine;
             sample.cosine = cosine * turn.0 - sine * turn.1;
             sample.sine = sine * turn.0 + cosine * turn.1;
+        }
+        if constant && information > 0.0 {
+            (c, s) = (c - of_cosine * score / information, s - of_sine * score / information);
+            cc -= of_cosine * of_cosine / information;
+            ss -= of_sine * of_sine / information;
+            cs -= of_cosine * of_sine / information;
         }
         *power += explained(c, s, cc, ss, cs);
     }
@@ -319,6 +342,22 @@ mod tests {
         assert!(agree(&[(1.3, 1.0), (0.8, 1.0), (1.4, 1.0), (2.0, 1.0)]));
         // A tenth is not known so well.
         assert!(agree(&[(100.0, 0.1), (108.0, 0.1)]));
+    }
+
+    /// What is left of a line of few cycles beside a constant is all of it: else its images of many cycles are as strong.
+    #[test]
+    fn beside_a_constant_a_line_of_few_cycles_explains_all_that_is_left_of_it() {
+        let at = |n: usize| 1.0 + 0.058 * n as f64;
+        let errors: Vec<f64> = (0..26).map(|n| (TAU * at(n) + 0.4).sin()).collect();
+        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+        let group: Vec<(f64, Sum)> = (0..26).map(|n| (at(n), (errors[n] - mean, 1.0))).collect();
+        let power = |constant| {
+            let mut power = [0.0];
+            add_powers(&group, 1.0, 0.0, constant, &mut power);
+            power[0] / chi2(&group)
+        };
+        assert!((power(true) - 1.0).abs() < 1e-9, "{}", power(true));
+        assert!(power(false) < 0.97, "{}", power(false));
     }
 
     #[test]

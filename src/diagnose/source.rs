@@ -1,5 +1,6 @@
 //! Whether a flicker has one source: a lamp flickers equally in all recordings, and with nearly the same frequency.
 
+use super::columns::Column;
 use super::fit::Fit;
 use super::lines::{FLICKER, MAINS_OFF, agree};
 use super::pieces::Piece;
@@ -20,16 +21,27 @@ pub struct Shown {
 
 /// What each recording shows of a flicker, where it has pieces of its own in them; noise has `inflation` times the variance that was stated.
 pub fn shown(fit: &Fit, inflation: f64) -> Vec<Shown> {
-    let flickers = |piece: &&Piece| piece.effect.name == FLICKER;
-    let of = |piece: &Piece| {
+    let flickers = |piece: &Piece| piece.effect.name == FLICKER;
+    let of = |(number, piece): (usize, &Piece)| {
         let values = || piece.effect.parameters.iter().zip(&piece.values);
         let strengths = values().filter(|(parameter, _)| !parameter.is_shape());
         let size = strengths.map(|(parameter, value)| (value - parameter.off).powi(2)).sum::<f64>().sqrt();
         let take = *piece.takes.first()?;
         let hz = values().find(|(parameter, _)| parameter.is_shape()).map(|(_, hz)| *hz)?;
-        Some(Shown { take, hz, size: (size, fit.series.blur(take)? * inflation.sqrt()) })
+        // Where frames see a line nearly at rest, neither its amplitude nor its frequency is known, but what both make together.
+        let along = |parameter: usize| {
+            let is_it = |column: &Column| (column.piece, column.parameter) == (number, parameter);
+            let place = fit.columns.iter().position(is_it)?;
+            let (value, off) = (piece.values[parameter], piece.effect.parameters[parameter].off);
+            Some((value - off) / size * fit.sigma[place])
+        };
+        let all = piece.effect.parameters.iter().enumerate();
+        let along = all.filter(|(_, p)| !p.is_shape()).filter_map(|(parameter, _)| along(parameter));
+        let fitted = along.map(|sigma| sigma * sigma).sum::<f64>().sqrt();
+        let sigma = fit.series.blur(take)?.max(if fitted.is_finite() { fitted } else { 0.0 });
+        Some(Shown { take, hz, size: (size, sigma * inflation.sqrt()) })
     };
-    fit.pieces.iter().filter(flickers).filter_map(of).collect()
+    fit.pieces.iter().enumerate().filter(|(_, piece)| flickers(piece)).filter_map(of).collect()
 }
 
 /// Whether what recordings show of a line may be one.
