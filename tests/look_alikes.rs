@@ -202,12 +202,14 @@ fn a_gain_of_the_lasers_is_a_gain_of_frames() {
 /// A sweep goes through its phase offsets in time, but the rail does not.
 #[test]
 fn a_gain_that_follows_the_offset_is_a_mismatch_in_the_phase() {
-    let verdict = verdict_of("four-rail,four-sweep,wdft-sweep", |sample| {
-        let offset_rad = if sample.recording == 0 { 0.0 } else { TAU * (sample.set / 2) as f64 / 48.0 };
-        with(sample, 0.004 * (sample.code - 64.0) * offset_rad.cos())
-    });
-    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
-    assert_eq!(verdict["located"][0]["coordinate"], "phase", "{verdict:#}");
+    for cycles in [1.0, 3.0] {
+        let verdict = verdict_of("four-rail,four-sweep,wdft-sweep", |sample| {
+            let offset_rad = if sample.recording == 0 { 0.0 } else { TAU * (sample.set / 2) as f64 / 48.0 };
+            with(sample, 0.004 * (sample.code - 64.0) * (cycles * offset_rad).cos())
+        });
+        assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+        assert_eq!(verdict["located"][0]["coordinate"], "phase", "{verdict:#}");
+    }
 }
 
 /// An S over the converter's whole scale is nearly what a response does that is not linear: both are said.

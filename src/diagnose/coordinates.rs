@@ -110,8 +110,10 @@ const CODES: usize = 14;
 const CYCLES: usize = 6;
 /// Columns of the phase coordinate that go with the range's phase; those after them go with the phase offset that was set.
 pub const OF_RANGE: usize = 6 * CYCLES;
-/// Functions of the phase offset: sine and cosine, of one cycle a turn and of two.
-const OF_OFFSET: usize = 4;
+/// Cycles a turn of the phase offset at most.
+const OFFSET_CYCLES: usize = 4;
+/// Functions of the phase offset: cosine and sine of each.
+const OF_OFFSET: usize = 2 * OFFSET_CYCLES;
 const RUN_WAYS: [&str; 5] = [
     "linear in velocity",
     "with speed",
@@ -274,9 +276,9 @@ fn phase(view: &View) -> Acting {
             columns[at + 5][pixel] = wave_sine * amplitude[pixel];
         }
     }
-    let (once, twice) = (cos_sin(moment.offset_rad), cos_sin(2.0 * moment.offset_rad));
-    let functions = [once.0, once.1, twice.0, twice.1];
-    let of_offset = by_frame(view, OF_OFFSET, &functions.into_iter().enumerate().collect::<Vec<_>>());
+    let turned = (1..=OFFSET_CYCLES).map(|cycles| cos_sin(cycles as f64 * moment.offset_rad));
+    let functions: Vec<_> = turned.flat_map(|(cosine, sine)| [cosine, sine]).enumerate().collect();
+    let of_offset = by_frame(view, OF_OFFSET, &functions);
     let after = of_offset.into_iter().map(|(number, column)| (OF_RANGE + number, column));
     columns.into_iter().enumerate().chain(after).collect()
 }
