@@ -32,6 +32,7 @@ mod search;
 mod settle;
 mod simpler;
 mod source;
+mod start;
 mod swings;
 mod tamed;
 mod verdict;

@@ -1,9 +1,9 @@
 //! What the recordings themselves say of the mask, and of sets that are unlike all others.
 
 use super::data::Data;
-use super::fit::BACKGROUND_M;
 use super::gram::Noise;
 use super::lines::{Series, SetSeen};
+use super::start::BACKGROUND_M;
 use crate::physics::cos_sin;
 use crate::units::phase_rad;
 use nalgebra::{Matrix4, Vector4};

@@ -1,0 +1,108 @@
+//! Where a fit starts: the pixels' own numbers by linear least squares.
+
+use super::columns::OWN;
+use super::data::{Data, Take};
+use crate::bench::chain;
+use crate::physics::{Chain, Memory, Pixels};
+use nalgebra::{Matrix4, Vector4};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
+pub const BACKGROUND_M: f64 = 1.0;
+
+fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
+    let geometry = data.geometry();
+    let camera = &data.camera;
+    let edges = Pixels::edges_of(geometry, &data.target);
+    let edge_counts = Pixels::edge_counts_of(&edges);
+    let [amplitude_1m_dn, phase_rad, constant_1m_dn, ambient_dn] = numbers;
+    Pixels {
+        geometry,
+        target: data.target.clone(),
+        obliquity: data.obliquities(),
+        background_m: vec![BACKGROUND_M; geometry.pixels()],
+        phase_rad,
+        amplitude_1m_dn,
+        constant_1m_dn,
+        ambient_dn: ambient_dn.into(),
+        full_scale_dn: f64::from(camera.full_scale()) - camera.pedestal_dn,
+        pedestal_dn: camera.pedestal_dn,
+        edges,
+        edge_counts,
+    }
+}
+
+/// The pixels with their own numbers from a linear fit of the fundamental to the sets of which `counts` is true, without any effect.
+pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
+    let count = data.pixels();
+    let unit = |amplitude: f64, phase_rad: f64, constant: f64, ambient: f64| {
+        let numbers = [amplitude, phase_rad, constant, ambient].map(|value| vec![value; count]);
+        chain(&data.camera, Arc::new(pixels(data, numbers)), Vec::new())
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let basis: [Chain; OWN] = [
+        unit(1.0, 0.0, 0.0, 0.0),
+        unit(1.0, quarter, 0.0, 0.0),
+        unit(0.0, 0.0, 1.0, 0.0),
+        unit(0.0, 0.0, 0.0, 1.0),
+    ];
+    let none = || vec![(Matrix4::<f64>::zeros(), Vector4::<f64>::zeros()); count];
+    let add = |mut normal: Vec<(Matrix4<f64>, Vector4<f64>)>, take: &Take, index: usize| {
+        let expose = |chain: &Chain| chain.expose(take.moments[index], Memory::default()).signal_dn;
+        let signals = basis.each_ref().map(expose);
+        let measured = &take.signal_dn[index * count..(index + 1) * count];
+        for (pixel, &measured) in measured.iter().enumerate().filter(|(_, measured)| !measured.is_nan()) {
+            let constant = if data.tells_constant(pixel) { signals[2][pixel] } else { 0.0 };
+            let own = Vector4::new(signals[0][pixel], signals[1][pixel], constant, signals[3][pixel]);
+            normal[pixel].0 += own * own.transpose();
+            normal[pixel].1 += own * f64::from(measured);
+        }
+        normal
+    };
+    let sets: Vec<(usize, (usize, usize))> =
+        data.sets().into_iter().enumerate().filter(|&(number, _)| counts(number)).collect();
+    let chunk = sets.len().div_ceil(rayon::current_num_threads()).max(1);
+    let normal = sets.par_chunks(chunk).map(|sets| {
+        let indices = |&(_, (take, set)): &(usize, (usize, usize))| {
+            let take = &data.takes[take];
+            (set * take.frames..(set + 1) * take.frames).map(move |index| (take, index))
+        };
+        sets.iter().flat_map(indices).fold(none(), |normal, (take, index)| add(normal, take, index))
+    });
+    let normal = normal.reduce(none, |mut normal, others| {
+        normal.iter_mut().zip(others).for_each(|(sum, other)| {
+            sum.0 += other.0;
+            sum.1 += other.1;
+        });
+        normal
+    });
+    let mut numbers = [(); OWN].map(|()| vec![0.0; count]);
+    for (pixel, (matrix, vector)) in normal.iter().enumerate() {
+        let solution = matrix.svd(true, true).solve(vector, 1e-9 * matrix.norm()).unwrap_or_default();
+        numbers[0][pixel] = solution[0].hypot(solution[1]);
+        numbers[1][pixel] = solution[1].atan2(solution[0]);
+        numbers[2][pixel] = solution[2];
+        numbers[3][pixel] = solution[3];
+    }
+    split_background(data, &mut numbers);
+    Arc::new(pixels(data, numbers))
+}
+
+/// A background that never moves does not tell its constant light from the ambient light: it is given the target's usual ratio of
+/// constant light to amplitude, as far as there is so much light. Where nothing moves, all light is taken for the camera's own.
+fn split_background(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
+    let mut ratios: Vec<f64> = (0..data.pixels())
+        .filter(|&pixel| data.target[pixel] && numbers[0][pixel] > 0.0)
+        .map(|pixel| numbers[2][pixel] / numbers[0][pixel])
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    let ratio = ratios.get(ratios.len() / 2).copied().unwrap_or(f64::INFINITY).max(0.0);
+    for pixel in (0..data.pixels()).filter(|&pixel| !data.tells_constant(pixel)) {
+        // Without any light there is none to split.
+        let share = if numbers[0][pixel] > 0.0 { ratio * numbers[0][pixel] } else { 0.0 };
+        let constant = share.min(numbers[3][pixel].max(0.0));
+        numbers[2][pixel] = constant;
+        numbers[3][pixel] -= constant;
+    }
+}
