@@ -21,13 +21,14 @@ pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
         camera.read_noise_e = (floor - ROUNDING_DN2).max(0.0).sqrt() / slope;
     }
     let named = |name: &str| judgement.named.iter().any(|named| named.name == name);
-    let Fit { pieces, columns, sigma, .. } = &judgement.fit;
+    let Fit { pieces, columns, .. } = &judgement.fit;
     for (number, piece) in pieces.iter().enumerate().filter(|(_, piece)| named(piece.effect.name)) {
         // By name where it acts wholly, as far as is known; else with its value.
-        let is_whole = |(column, sigma): (&Column, &f64)| {
-            column.piece == number && (piece.values[column.parameter] - 1.0).abs() < WHOLE_SIGMAS * sigma
+        let is_whole = |(place, column): (usize, &Column)| {
+            let off_by = (piece.values[column.parameter] - 1.0).abs();
+            column.piece == number && off_by < WHOLE_SIGMAS * judgement.fit.sigma(place)
         };
-        let is_whole = piece.takes.len() == data.takes.len() && columns.iter().zip(sigma).any(is_whole);
+        let is_whole = piece.takes.len() == data.takes.len() && columns.iter().enumerate().any(is_whole);
         let by_name = BASELINE.iter().find(|(name, _)| *name == piece.effect.name);
         if let Some((_, included)) = by_name.filter(|_| is_whole) {
             camera.included_physics.push((*included).to_owned());

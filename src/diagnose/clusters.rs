@@ -6,7 +6,7 @@
 use super::data::Data;
 use super::gram::Whitened;
 use super::jitters::{Frame, Jitters};
-use super::lines::Sum;
+use super::periodogram::Sum;
 use super::swings::{Seen, Swing, Swings};
 use super::tamed::tamed;
 use super::waves::{Wave, Waves};

@@ -114,6 +114,8 @@ pub const OF_RANGE: usize = 6 * CYCLES;
 const OFFSET_CYCLES: usize = 4;
 /// Functions of the phase offset: cosine and sine of each.
 const OF_OFFSET: usize = 2 * OFFSET_CYCLES;
+/// Functions of the phase offset that are less are zero: offsets are written with six digits.
+const LEAST_OF_OFFSET: f64 = 1e-5;
 const RUN_WAYS: [&str; 5] = [
     "linear in velocity",
     "with speed",
@@ -277,7 +279,9 @@ fn phase(view: &View) -> Acting {
         }
     }
     let turned = (1..=OFFSET_CYCLES).map(|cycles| cos_sin(cycles as f64 * moment.offset_rad));
-    let functions: Vec<_> = turned.flat_map(|(cosine, sine)| [cosine, sine]).enumerate().collect();
+    // Of offsets that divide the turn evenly, what rounding leaves of a zero is one.
+    let of = |value: f64| if value.abs() < LEAST_OF_OFFSET { 0.0 } else { value };
+    let functions: Vec<_> = turned.flat_map(|(cosine, sine)| [of(cosine), of(sine)]).enumerate().collect();
     let of_offset = by_frame(view, OF_OFFSET, &functions);
     let after = of_offset.into_iter().map(|(number, column)| (OF_RANGE + number, column));
     columns.into_iter().enumerate().chain(after).collect()

@@ -6,6 +6,7 @@ use super::gram::{Gram, Noise, Projected, Whitened};
 use super::lines::Series;
 use super::pieces::Piece;
 use super::start::linear;
+use super::watchdog::{ENOUGH, descend};
 use crate::physics::Pixels;
 use nalgebra::{DMatrix, DVector, Vector4};
 use std::sync::Arc;
@@ -17,14 +18,15 @@ pub struct Fit {
     pub pixels: Arc<Pixels>,
     /// The effects, with their values.
     pub pieces: Vec<Piece>,
-    /// The fitted parameters, in the order of `sigma`.
+    /// The fitted parameters, in the order of `covariance`.
     pub columns: Vec<Column>,
-    /// Standard deviations of the fitted parameters.
-    pub sigma: Vec<f64>,
+    /// Covariance of the fitted parameters, with all other numbers free.
+    pub covariance: DMatrix<f64>,
     /// Chi squared, with the sets' common position errors taken out, and what their freedom costs: minus twice the logarithm of the likelihood, but
     /// for a constant.
     pub chi2: f64,
-    /// By how much a further step would lower it: next to nothing where the fit has come to an end.
+    /// By how much a further step would lower what is left, the pixels' own numbers' part included, which `chi2` is without: next to nothing where the
+    /// fit has come to an end.
     pub unreached: f64,
     /// Samples.
     pub samples: usize,
@@ -55,9 +57,7 @@ const SETTLINGS: usize = 8;
 
 /// Iterations of Gauss and Newton at most: the pixels' own numbers start close, a response that is far from linear does not.
 const ITERATIONS: usize = 12;
-/// A step that would lower chi squared by less is none: a standard deviation of one number is 1.
-const ENOUGH: f64 = 0.1;
-/// No step may make the sum of squares so many times greater: it is damped (Levenberg 1944, Marquardt 1963).
+/// A step that makes the sum of squares so many times greater is damped (Levenberg 1944, Marquardt 1963).
 const WORSE: f64 = 1.01;
 const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
 
@@ -66,6 +66,11 @@ const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
 const FAR: f64 = 1.5;
 
 impl Fit {
+    /// Standard deviation of the fitted parameter in `column`.
+    pub fn sigma(&self, column: usize) -> f64 {
+        self.covariance[(column, column)].max(0.0).sqrt()
+    }
+
     /// Whether what it leaves is far above the noise.
     pub fn is_far(&self) -> bool {
         self.chi2 > FAR * self.samples as f64
@@ -105,28 +110,9 @@ pub fn fit(
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
     let round = Round::new(data, &pixels, &pieces, noise, counts);
-    let mut here = Model { pixels, pieces, round };
-    let mut best: Option<Model> = None;
-    let mut may_grow = true;
-    for _ in 0..ITERATIONS {
-        if here.round.gain >= ENOUGH
-            && let Some(there) = here.stepped(may_grow, data, noise, counts)
-        {
-            let is_slow = there.round.square > (1.0 - SLOW) * here.round.square;
-            let left = std::mem::replace(&mut here, there);
-            if best.as_ref().is_none_or(|best| left.is_below(best)) {
-                best = Some(left);
-            }
-            // Far from any minimum, what hardly moves will not come there.
-            if !(is_slow && here.round.is_far()) {
-                continue;
-            }
-        }
-        // This is the end, unless the way led uphill and not down again: then back to where it was best, and downhill from there.
-        let Some(below) = best.take_if(|best| may_grow && best.is_below(&here)) else { break };
-        (here, may_grow) = (below, false);
-    }
-    best.filter(|best| best.is_below(&here)).unwrap_or(here).end()
+    let start = Model { pixels, pieces, round, is_stuck: false };
+    let step = |here: &Model, may_climb: bool| here.stepped(may_climb, data, noise, counts);
+    descend(start, ITERATIONS, &step, &|model| model.round.left()).end()
 }
 
 /// A model, and the normal equations around it.
@@ -134,39 +120,44 @@ struct Model {
     pixels: Arc<Pixels>,
     pieces: Vec<Piece>,
     round: Round,
+    /// Far from any minimum, what hardly moves will not come there.
+    is_stuck: bool,
 }
 
 impl Model {
-    /// After the first step, of the whole one and damped ones, that does not make the mismatch greater, or, where it `may_grow`, not much.
+    /// After the first step, of the whole one and damped ones, that does not lead uphill, or, where it `may_climb`, not far; nothing where there is none, or
+    /// none is worth it.
     fn stepped(
         &self,
-        may_grow: bool,
+        may_climb: bool,
         data: &Data,
         noise: Noise,
         counts: &(dyn Fn(usize) -> bool + Sync),
     ) -> Option<Self> {
+        if self.is_stuck || self.round.gain < ENOUGH {
+            return None;
+        }
         DAMPINGS.into_iter().find_map(|damping| {
             let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), damping);
             if self.round.is_far() {
                 pixels = settled(data, &pixels, &pieces, noise, counts);
             }
             let round = Round::new(data, &pixels, &pieces, noise, counts);
-            let most = if may_grow { WORSE * self.round.square } else { self.round.square };
-            let is_taken = round.square <= most || !may_grow && round.left() <= self.round.left();
-            is_taken.then_some(Self { pixels, pieces, round })
+            let is_taken = match may_climb {
+                true => round.square <= WORSE * self.round.square && round.left().is_finite(),
+                false => round.left() <= self.round.left(),
+            };
+            let is_slow = round.square > (1.0 - SLOW) * self.round.square;
+            let is_stuck = is_slow && round.is_far();
+            is_taken.then_some(Self { pixels, pieces, round, is_stuck })
         })
     }
 
-    /// Whether its likelihood is clearly greater.
-    fn is_below(&self, other: &Self) -> bool {
-        self.round.left() + ENOUGH < other.round.left()
-    }
-
     fn end(self) -> Fit {
-        let Self { pixels, pieces, round: Round { columns, projected, sigma, gain, samples, series, .. } } =
-            self;
+        let Self { pixels, pieces, round, .. } = self;
+        let Round { columns, projected, covariance, gain, samples, series, .. } = round;
         let Projected { chi2, jitter_m2, .. } = projected;
-        Fit { pixels, pieces, columns, sigma, chi2, unreached: gain, samples, jitter_m2, series }
+        Fit { pixels, pieces, columns, covariance, chi2, unreached: gain, samples, jitter_m2, series }
     }
 }
 
@@ -190,7 +181,7 @@ struct Round {
     columns: Vec<Column>,
     projected: Projected,
     theta: DVector<f64>,
-    sigma: Vec<f64>,
+    covariance: DMatrix<f64>,
     /// By how much the step lowers chi squared.
     gain: f64,
     /// Sum of squares of the whitened residual here.
@@ -211,16 +202,16 @@ impl Round {
         let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
         let (gram, series) = Gram::visited(data, &tangents, noise, counts, &visit, &Series::and);
         let projected = gram.project(None);
-        let (theta, sigma) = bounded_step(&projected, &columns, pieces, pixels.full_scale_dn, 0.0);
+        let (theta, covariance) = bounded_step(&projected, &columns, pieces, pixels.full_scale_dn, 0.0);
         let gain = projected.settled + theta.dot(&projected.vector);
-        Self { columns, projected, theta, sigma, gain, square: gram.chi2, samples: gram.samples, series }
+        Self { columns, projected, theta, covariance, gain, square: gram.chi2, samples: gram.samples, series }
     }
 
     fn is_far(&self) -> bool {
         self.square > FAR * self.samples as f64
     }
 
-    /// Minus twice the logarithm of the likelihood, but for a constant, with the pixels' numbers as they are: what a step promises to take away need not go.
+    /// What is left before the step, with the sets' common position errors taken out: what a step promises to take away need not go.
     fn left(&self) -> f64 {
         self.projected.chi2 + self.projected.settled
     }
@@ -264,7 +255,7 @@ fn reaches(columns: &[Column], pieces: &[Piece], full_scale_dn: f64) -> Vec<f64>
     columns.iter().map(|column| parameter(column).reach(full_scale_dn)).collect()
 }
 
-/// The step to the minimum, and the standard deviations there, for numbers that stay within their bounds: one that is at a bound and would
+/// The step to the minimum, and the covariance there, for numbers that stay within their bounds: one that is at a bound and would
 /// go beyond stays where it is, and is known.
 fn bounded_step(
     projected: &Projected,
@@ -272,10 +263,10 @@ fn bounded_step(
     pieces: &[Piece],
     full_scale_dn: f64,
     damping: f64,
-) -> (DVector<f64>, Vec<f64>) {
+) -> (DVector<f64>, DMatrix<f64>) {
     let mut reach = reaches(columns, pieces, full_scale_dn);
     loop {
-        let (theta, sigma) = step(projected, &reach, damping);
+        let (theta, covariance) = step(projected, &reach, damping);
         let goes_beyond = |number: &usize| {
             let piece = &pieces[columns[*number].piece];
             let parameter = columns[*number].parameter;
@@ -283,17 +274,17 @@ fn bounded_step(
             let (value, step) = (piece.values[parameter], theta[*number]);
             reach[*number] > 0.0 && (step < 0.0 && value <= low || step > 0.0 && value >= high)
         };
-        let Some(held) = (0..columns.len()).find(goes_beyond) else { return (theta, sigma) };
+        let Some(held) = (0..columns.len()).find(goes_beyond) else { return (theta, covariance) };
         reach[held] = 0.0;
     }
 }
 
-/// The step to the minimum, and the standard deviations there. That no number goes beyond its `reach` is known beforehand; one without any
+/// The step to the minimum, and the covariance there. That no number goes beyond its `reach` is known beforehand; one without any
 /// stays where it is.
-fn step(projected: &Projected, reach: &[f64], damping: f64) -> (DVector<f64>, Vec<f64>) {
+fn step(projected: &Projected, reach: &[f64], damping: f64) -> (DVector<f64>, DMatrix<f64>) {
     let size = projected.vector.len();
     if size == 0 {
-        return (DVector::zeros(0), Vec::new());
+        return (DVector::zeros(0), DMatrix::zeros(0, 0));
     }
     let known = |c: usize| projected.matrix[(c, c)].max(0.0) + reach[c].powi(-2);
     let scale = DVector::from_fn(size, |c, _| if reach[c] > 0.0 { known(c).sqrt().recip() } else { 0.0 });
@@ -306,8 +297,8 @@ fn step(projected: &Projected, reach: &[f64], damping: f64) -> (DVector<f64>, Ve
     let kept = eigen.eigenvalues.map(|value| if value > 1e-6 { value.recip() } else { 0.0 });
     let inverse = &eigen.eigenvectors * DMatrix::from_diagonal(&kept) * eigen.eigenvectors.transpose();
     let theta = (&inverse * projected.vector.component_mul(&scale)).component_mul(&scale);
-    let sigma = (0..size).map(|c| inverse[(c, c)].max(0.0).sqrt() * scale[c]).collect();
-    (theta, sigma)
+    let covariance = DMatrix::from_fn(size, size, |r, c| inverse[(r, c)] * scale[r] * scale[c]);
+    (theta, covariance)
 }
 
 /// The pixels with their own numbers moved.

@@ -3,12 +3,7 @@
 use super::data::Data;
 use super::evidence::tail;
 use super::gram::Whitened;
-use crate::physics::cos_sin;
-use rayon::prelude::*;
-use std::f64::consts::TAU;
-
-/// Score and information.
-pub type Sum = (f64, f64);
+use super::periodogram::{FINENESS, Scan, Sum, add_powers, chi2, longest};
 
 /// What frames and sets say of errors that they share.
 #[derive(Debug, Clone, Default)]
@@ -55,8 +50,6 @@ pub const FLICKER: &str = "ambient_flicker";
 pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
 /// Periods of an encoder's error: cycles a metre.
 const CYCLES_M: (f64, f64) = (0.6, 250.0);
-/// Frequencies are so many times finer than the inverse of the whole length.
-pub const FINENESS: f64 = 4.0;
 /// Of a line that is seen nearly at rest, so many cycles over the whole length are a drift too.
 const DRIFT_CYCLES: f64 = 3.0;
 /// The same where the line is twice the mains' frequency, which is known beforehand: Hz, and by what share it is off at most.
@@ -147,46 +140,20 @@ impl Series {
         (information > 0.0).then(|| blur(information))
     }
 
-    /// The strongest line in the encoder's reading, cycles a metre.
-    pub fn in_position(&self) -> Option<Line> {
-        let sets = self.sets.iter().map(|seen| (seen.reading_m, seen.position)).collect();
-        // Nothing tells how far away the target is but the readings: a constant is free.
-        strongest_of(&[sets], CYCLES_M, 0.0, true)
+    /// The strongest line in the encoder's reading, cycles a metre, and, where it is another one, that of the longest period among those that are as
+    /// strong but for what noise makes of them: at places that are nearly evenly apart a line has images that are nearly as strong.
+    pub fn in_position(&self) -> Vec<Line> {
+        let sets: Vec<(f64, Sum)> = self.sets.iter().map(|seen| (seen.reading_m, seen.position)).collect();
+        with_images(&sets, CYCLES_M)
     }
-}
-
-/// The length of the longest group.
-fn longest(groups: &[Vec<(f64, Sum)>]) -> f64 {
-    let length = |group: &Vec<(f64, Sum)>| {
-        let (first, last) = group
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (at, _)| (low.min(*at), high.max(*at)));
-        last - first
-    };
-    groups.iter().map(length).fold(0.0, f64::max)
 }
 
 /// The strongest line of all groups, each with a phase of its own (Lomb 1976, with the information as weights).
 ///
 /// Not those that go through whole turns within `period`, or nearly.
 pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> Option<Line> {
-    strongest_of(groups, ends, period, false)
-}
-
-/// The same beside a constant of each group, where there may be one (Zechmeister and Kürster 2009): of few cycles sine and cosine have a mean,
-/// and a line that is seen at few places has images of many cycles, which have none.
-fn strongest_of(
-    groups: &[Vec<(f64, Sum)>],
-    (low, high): (f64, f64),
-    period: f64,
-    constant: bool,
-) -> Option<Line> {
+    let Scan { low, step, powers } = Scan::of(groups, ends, false)?;
     let longest = longest(groups);
-    if longest <= 0.0 {
-        return None;
-    }
-    let step = 1.0 / (FINENESS * longest);
-    let count = ((high - low) / step).ceil() as usize;
     let is_drift = |number: usize| {
         let frequency = low + number as f64 * step;
         let is_mains = TWICE_MAINS_HZ.iter().any(|mains| (frequency / mains - 1.0).abs() < MAINS_OFF);
@@ -194,32 +161,46 @@ fn strongest_of(
         let turns = frequency * period;
         period > 0.0 && (turns - turns.round()).abs() < cycles / longest * period
     };
-    let starts: Vec<usize> = (0..count).step_by(TOGETHER).collect();
-    let powers = starts.into_par_iter().flat_map_iter(|start| {
-        let numbers = start..(start + TOGETHER).min(count);
-        let mut powers = vec![0.0; numbers.len()];
-        for group in groups {
-            add_powers(group, low + start as f64 * step, step, constant, &mut powers);
+    let power = |&number: &usize| if is_drift(number) { 0.0 } else { powers[number] };
+    let best = (0..powers.len()).max_by(|a, b| power(a).total_cmp(&power(b)))?;
+    Some(Line { frequency: low + best as f64 * step, chi2: power(&best), looked: powers.len() as f64 })
+}
+
+/// The strongest line of a series, beside a constant (Zechmeister and Kürster 2009: nothing tells how far away the target is but the readings), and that of
+/// the longest period among those that are as strong, if it is another one.
+fn with_images(group: &[(f64, Sum)], ends: (f64, f64)) -> Vec<Line> {
+    let Some(Scan { low, step, powers }) = Scan::of(&[group.to_vec()], ends, true) else { return Vec::new() };
+    let most = powers.iter().copied().fold(0.0, f64::max);
+    let is_peak = |&n: &usize| {
+        let beside = [n.checked_sub(1), Some(n + 1)].into_iter().flatten().filter_map(|n| powers.get(n));
+        powers[n] >= NEARLY * most && beside.copied().all(|beside| beside <= powers[n])
+    };
+    // Between two steps a line loses a twentieth of its power, and its image somewhere else less.
+    let finer = |n: usize| {
+        let first = low + (n as f64 - 1.0) * step;
+        let mut fine = [0.0; 2 * FINER + 1];
+        add_powers(group, first, step / FINER as f64, true, &mut fine);
+        let best = (0..fine.len()).max_by(|&a, &b| fine[a].total_cmp(&fine[b])).unwrap_or(FINER);
+        Line {
+            frequency: first + best as f64 * step / FINER as f64,
+            chi2: fine[best],
+            looked: powers.len() as f64,
         }
-        powers.into_iter().zip(numbers).map(|(power, number)| if is_drift(number) { 0.0 } else { power })
-    });
-    let powers: Vec<f64> = powers.collect();
-    let best = (0..count).max_by(|&a, &b| powers[a].total_cmp(&powers[b]))?;
-    Some(Line { frequency: low + best as f64 * step, chi2: powers[best], looked: count as f64 })
+    };
+    let lines: Vec<Line> = (0..powers.len()).filter(is_peak).map(finer).collect();
+    let Some(&strongest) = lines.iter().max_by(|a, b| a.chi2.total_cmp(&b.chi2)) else { return lines };
+    // Of many images one is stronger by chance.
+    let least = strongest.chi2 - AS_STRONG - 2.0 * (lines.len() as f64).ln();
+    let longest = lines.into_iter().find(|line| line.chi2 > least);
+    let other = longest.filter(|longest| longest.frequency < strongest.frequency);
+    std::iter::once(strongest).chain(other).collect()
 }
 
-/// Chi squared that a line of this frequency explains in a group.
-pub fn power(group: &[(f64, Sum)], frequency: f64) -> f64 {
-    let mut power = [0.0];
-    add_powers(group, frequency, 0.0, false, &mut power);
-    power[0]
-}
-
-/// Chi squared of a group.
-pub fn chi2(group: &[(f64, Sum)]) -> f64 {
-    let informed = group.iter().filter(|(_, sum)| sum.1 > 0.0);
-    informed.map(|(_, (score, information))| score * score / information).sum()
-}
+/// Peaks of at least this share of the greatest power are looked at more finely, in so many steps.
+const NEARLY: f64 = 0.9;
+const FINER: usize = 8;
+/// Lines whose chi squared differs by less are as strong: three nats.
+const AS_STRONG: f64 = 6.0;
 
 /// Standard deviation of a line's amplitude where there is so much information: sine and cosine have half of it each.
 pub fn blur(information: f64) -> f64 {
@@ -264,74 +245,11 @@ pub fn agree(sizes: &[(f64, f64)]) -> bool {
     sizes.len() < 2 || tail(chi2, sizes.len() - 1) > DISAGREEING
 }
 
-/// Neighbouring frequencies that are looked at together: each sample's phase is turned from one to the next.
-const TOGETHER: usize = 64;
-
-/// A sample, and its phase at a frequency.
-struct Turning {
-    score: f64,
-    information: f64,
-    cosine: f64,
-    sine: f64,
-    /// By what it turns to the next frequency.
-    turn: (f64, f64),
-}
-
-/// Adds the powers at `frequency` and at those after it, each `step` above the last, beside a `constant`, where there may be one.
-fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, constant: bool, powers: &mut [f64]) {
-    let angle = |turns: f64| cos_sin(TAU * (turns - turns.floor()));
-    let turning = |&(at, (score, information)): &(f64, Sum)| {
-        let (cosine, sine) = angle(at * frequency);
-        Turning { score, information, cosine, sine, turn: angle(at * step) }
-    };
-    let mut samples: Vec<Turning> = group.iter().map(turning).collect();
-    let (score, information) =
-        samples.iter().fold((0.0, 0.0), |sums, sample| (sums.0 + sample.score, sums.1 + sample.information));
-    for power in powers {
-        let (mut c, mut s, mut cc, mut ss, mut cs) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        let (mut of_cosine, mut of_sine) = (0.0, 0.0);
-        for sample in &mut samples {
-            let Turning { score, information, cosine, sine, turn } = *sample;
-            c += score * cosine;
-            s += score * sine;
-            cc += information * cosine * cosine;
-            ss += information * sine * sine;
-            cs += information * cosine * sine;
-            of_cosine += information * cosine;
-            of_sine += information * sine;
-            sample.cosine = cosine * turn.0 - sine * turn.1;
-            sample.sine = sine * turn.0 + cosine * turn.1;
-        }
-        if constant && information > 0.0 {
-            (c, s) = (c - of_cosine * score / information, s - of_sine * score / information);
-            cc -= of_cosine * of_cosine / information;
-            ss -= of_sine * of_sine / information;
-            cs -= of_cosine * of_sine / information;
-        }
-        *power += explained(c, s, cc, ss, cs);
-    }
-}
-
-/// Chi squared that a line explains, by the sums of its scores and their information.
-fn explained(c: f64, s: f64, cc: f64, ss: f64, cs: f64) -> f64 {
-    let total = cc + ss;
-    if total <= 0.0 {
-        return 0.0;
-    }
-    // Where frames sample one phase of the line only, the other phase says nothing.
-    let determinant = cc * ss - cs * cs;
-    if determinant > 1e-3 * total * total {
-        (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant
-    } else if cc > ss {
-        c * c / cc
-    } else {
-        s * s / ss
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::Draws;
+    use std::f64::consts::TAU;
 
     #[test]
     fn equal_amplitudes_agree_and_others_do_not() {
@@ -344,20 +262,23 @@ mod tests {
         assert!(agree(&[(100.0, 0.1), (108.0, 0.1)]));
     }
 
-    /// What is left of a line of few cycles beside a constant is all of it: else its images of many cycles are as strong.
+    /// Places nearly evenly apart, as on a rail: the line is found, whatever its place between the steps of frequency, and not one of its images.
     #[test]
-    fn beside_a_constant_a_line_of_few_cycles_explains_all_that_is_left_of_it() {
-        let at = |n: usize| 1.0 + 0.058 * n as f64;
-        let errors: Vec<f64> = (0..26).map(|n| (TAU * at(n) + 0.4).sin()).collect();
-        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-        let group: Vec<(f64, Sum)> = (0..26).map(|n| (at(n), (errors[n] - mean, 1.0))).collect();
-        let power = |constant| {
-            let mut power = [0.0];
-            add_powers(&group, 1.0, 0.0, constant, &mut power);
-            power[0] / chi2(&group)
-        };
-        assert!((power(true) - 1.0).abs() < 1e-9, "{}", power(true));
-        assert!(power(false) < 0.97, "{}", power(false));
+    fn a_line_at_places_that_are_nearly_evenly_apart_is_not_its_image() {
+        for cycles_m in [0.75, 1.25, 2.05, 3.33, 5.17] {
+            for seed in 0..4 {
+                let off = Draws::of(seed, 7).normal(51);
+                let at = |n: usize| 1.0 + 0.05 * n as f64 + 1e-4 * off[n];
+                let noise = Draws::of(seed, 8).normal(51);
+                let errors: Vec<f64> =
+                    (0..51).map(|n| 3.0 * (TAU * cycles_m * at(n)).sin() + noise[n]).collect();
+                let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+                let group: Vec<(f64, Sum)> = (0..51).map(|n| (at(n), (errors[n] - mean, 1.0))).collect();
+                let lines = with_images(&group, CYCLES_M);
+                let line = lines.last().unwrap();
+                assert!((line.frequency - cycles_m).abs() < 0.1, "{cycles_m}: {lines:?}");
+            }
+        }
     }
 
     #[test]

@@ -23,6 +23,7 @@ mod next;
 mod noise;
 mod parts;
 mod pass;
+mod periodogram;
 mod pieces;
 mod places;
 mod profiles;
@@ -36,6 +37,7 @@ mod start;
 mod swings;
 mod tamed;
 mod verdict;
+mod watchdog;
 mod waves;
 mod white;
 

@@ -67,6 +67,7 @@ pub fn parts(coordinate: &str, ranges: &Ranges, size: usize) -> Vec<Vec<usize>> 
 
 #[cfg(test)]
 mod tests {
+    use super::super::coordinates::COORDINATES;
     use super::*;
     use crate::frames::Geometry;
 
@@ -87,13 +88,17 @@ mod tests {
     #[test]
     fn parts_are_columns_of_one_way_each() {
         let ranges = ranges(vec![(4, 0), (64, 4)]);
-        for (name, size) in [("phase", 48), ("time_s", 48), ("set", 6)] {
+        let phase = COORDINATES.iter().find(|coordinate| coordinate.name == "phase").unwrap();
+        let of_phase = (phase.columns)(&ranges);
+        for (name, size) in [("phase", of_phase), ("time_s", 48), ("set", 6)] {
             let mut all = parts(name, &ranges, size).concat();
             all.sort_unstable();
             assert_eq!(all, (0..size).collect::<Vec<_>>(), "{name}");
         }
-        let phase = parts("phase", &ranges, 48);
-        assert_eq!((&phase[1][..4], &phase[3][..]), (&[2, 3, 8, 9][..], &[36, 37, 38, 39][..]));
+        let phase = parts("phase", &ranges, of_phase);
+        assert_eq!((&phase[1][..4], phase[3][0]), (&[2, 3, 8, 9][..], 36));
+        // Offset, gain and phase have each a cosine and a sine of one to four cycles.
+        assert_eq!(phase[3..].iter().map(Vec::len).collect::<Vec<_>>(), [8, 8, 8]);
         assert!(parts("neighbours", &ranges, 4).is_empty());
     }
 

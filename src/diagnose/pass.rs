@@ -19,10 +19,11 @@ const TRUSTED_SHARE: f64 = 0.03;
 const LEADING_SHARE: f64 = 0.8;
 /// The same for effects of fewer numbers: what a strong one does its tangent at the baseline need not show.
 const SIMPLER_SHARE: f64 = 0.5;
-/// So many effects at most.
+/// So many at most.
 const MOST_LEADERS: usize = 5;
 /// The same where the mismatch is greater than the noise: there tangents say little of what a fit will.
 const FAR_SHARE: f64 = 0.25;
+/// So many effects at most.
 const MOST_FAR_LEADERS: usize = 6;
 /// Beyond so much evidence (nats) the tangents at the baseline need not hold at the fit.
 const STRONG_NATS: f64 = 30.0;
@@ -201,7 +202,7 @@ impl Pass {
         let is_leading = |&block: &usize| score(block) >= share(block) * score(strongest);
         let mut leaders: Vec<usize> = (0..self.blocks.len()).filter(is_leading).collect();
         leaders.sort_by(single);
-        // The best effects, and of each two ways to be there: the way that shows best at the baseline need not be the one that fits.
+        // The best effects, and of each two ways to be there; far off the way that shows best at the baseline need not be the one that fits, and all stay.
         let mut ways = BTreeMap::<usize, usize>::new();
         leaders.retain(|&block| {
             if !ways.contains_key(&candidate(block)) && ways.len() == most {
@@ -211,6 +212,7 @@ impl Pass {
             *ways += 1;
             *ways <= 2
         });
+        leaders.truncate(if is_far { leaders.len() } else { most });
         let leads = |&block: &usize| leaders.iter().any(|&leader| candidate(leader) == candidate(block));
         let others = best.blocks.iter().copied().filter(|block| !is_far && !leads(block)).collect();
         (leaders.len() > 1).then_some((leaders, others))

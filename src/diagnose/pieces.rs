@@ -107,9 +107,9 @@ pub fn tolerance(name: &str) -> f64 {
     TOLERANCES.iter().find(|(known, _)| *known == name).map_or(EXACT, |(_, tolerance)| *tolerance)
 }
 
-/// A line that was found: its shape, among how many it was looked for, and its shape in each recording where that may differ.
+/// A line that was found: shapes that it may have, among how many they were looked for, and its shape in each recording where that may differ.
 struct Found {
-    shape: f64,
+    shapes: Vec<f64>,
     looked: f64,
     own: Vec<f64>,
 }
@@ -119,11 +119,12 @@ type LineShape = fn(&Series) -> Option<Found>;
 const LINES: [(&str, LineShape); 2] = [
     (FLICKER, |series| {
         let line = series.in_time(FLICKER_HZ)?;
-        Some(Found { shape: line.frequency, looked: line.looked, own: series.near(line.frequency) })
+        Some(Found { shapes: vec![line.frequency], looked: line.looked, own: series.near(line.frequency) })
     }),
     ("encoder_cyclic", |series| {
-        let line = series.in_position()?;
-        Some(Found { shape: line.frequency.recip(), looked: line.looked, own: Vec::new() })
+        let lines = series.in_position();
+        let shapes = lines.iter().map(|line| line.frequency.recip()).collect();
+        Some(Found { shapes, looked: lines.first()?.looked, own: Vec::new() })
     }),
 ];
 
@@ -152,13 +153,14 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         })
         .map(|effect| {
             let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));
-            let shapes = line.as_ref().map(|line| vec![line.shape]);
-            let mut variants = variants(effect, data, shapes.as_deref());
+            let shapes = line.as_ref().map(|line| &line.shapes[..]);
+            let mut variants = variants(effect, data, shapes);
             if let Some(line) = &line {
                 variants.iter_mut().for_each(|variant| variant.begin_at(&line.own));
             }
-            // A line is one of many frequencies that were looked at.
-            let looked = variants.len() as f64 * line.map_or(1.0, |line| line.looked);
+            // A line is one of many frequencies that were looked at, whichever of them are tried.
+            let of_line = |line: Found| line.looked / line.shapes.len() as f64;
+            let looked = variants.len() as f64 * line.map_or(1.0, of_line);
             Candidate { effect, looked, variants }
         })
         .collect()

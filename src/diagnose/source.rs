@@ -4,6 +4,7 @@ use super::columns::Column;
 use super::fit::Fit;
 use super::lines::{FLICKER, MAINS_OFF, agree};
 use super::pieces::Piece;
+use nalgebra::DMatrix;
 
 /// In standard deviations: where a line is weaker than this its frequency is noise.
 const SEEN: f64 = 4.0;
@@ -29,19 +30,25 @@ pub fn shown(fit: &Fit, inflation: f64) -> Vec<Shown> {
         let take = *piece.takes.first()?;
         let hz = values().find(|(parameter, _)| parameter.is_shape()).map(|(_, hz)| *hz)?;
         // Where frames see a line nearly at rest, neither its amplitude nor its frequency is known, but what both make together.
-        let along = |parameter: usize| {
-            let is_it = |column: &Column| (column.piece, column.parameter) == (number, parameter);
-            let place = fit.columns.iter().position(is_it)?;
-            let (value, off) = (piece.values[parameter], piece.effect.parameters[parameter].off);
-            Some((value - off) / size * fit.sigma[place])
+        let along = |(place, column): (usize, &Column)| {
+            let parameter = &piece.effect.parameters[column.parameter];
+            let is_it = column.piece == number && !parameter.is_shape();
+            is_it.then(|| (place, (piece.values[column.parameter] - parameter.off) / size))
         };
-        let all = piece.effect.parameters.iter().enumerate();
-        let along = all.filter(|(_, p)| !p.is_shape()).filter_map(|(parameter, _)| along(parameter));
-        let fitted = along.map(|sigma| sigma * sigma).sum::<f64>().sqrt();
+        let along: Vec<_> = fit.columns.iter().enumerate().filter_map(along).collect();
+        let fitted = sigma_along(&fit.covariance, &along);
         let sigma = fit.series.blur(take)?.max(if fitted.is_finite() { fitted } else { 0.0 });
         Some(Shown { take, hz, size: (size, sigma * inflation.sqrt()) })
     };
     fit.pieces.iter().enumerate().filter(|(_, piece)| flickers(piece)).filter_map(of).collect()
+}
+
+/// Standard deviation in a direction, which has so much of each column.
+fn sigma_along(covariance: &DMatrix<f64>, direction: &[(usize, f64)]) -> f64 {
+    let with = |&(a, of_a): &(usize, f64)| -> f64 {
+        direction.iter().map(|&(b, of_b)| of_a * of_b * covariance[(a, b)]).sum()
+    };
+    direction.iter().map(with).sum::<f64>().max(0.0).sqrt()
 }
 
 /// Whether what recordings show of a line may be one.
@@ -59,6 +66,24 @@ mod tests {
 
     fn shown(lines: &[(f64, f64)]) -> Vec<Shown> {
         lines.iter().enumerate().map(|(take, &(hz, size))| Shown { take, hz, size: (size, 0.1) }).collect()
+    }
+
+    /// Of a line of amplitude 5 whose phase is not known, the amplitude is known; at rest it is the other way round.
+    #[test]
+    fn what_is_not_known_of_the_phase_is_no_amplitude() {
+        let (along, across) = ([0.6, 0.8], [-0.8, 0.6]);
+        let of = |sigma_along: f64, sigma_across: f64| {
+            DMatrix::from_fn(3, 3, |r, c| match (r.checked_sub(1), c.checked_sub(1)) {
+                (Some(r), Some(c)) => {
+                    sigma_along.powi(2) * along[r] * along[c] + sigma_across.powi(2) * across[r] * across[c]
+                }
+                _ => 7.0,
+            })
+        };
+        let direction = [(1, along[0]), (2, along[1])];
+        assert!((sigma_along(&of(0.1, 3.0), &direction) - 0.1).abs() < 1e-12);
+        assert!((sigma_along(&of(3.0, 0.1), &direction) - 3.0).abs() < 1e-12);
+        assert_eq!(sigma_along(&of(0.1, 3.0), &[]), 0.0);
     }
 
     #[test]

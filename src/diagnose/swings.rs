@@ -3,7 +3,8 @@
 
 use super::clusters::MODES;
 use super::evidence::Greatest;
-use super::lines::{FINENESS, Sum, agree, blur, chi2, power, strongest};
+use super::lines::{agree, blur, strongest};
+use super::periodogram::{FINENESS, Sum, chi2, power};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Modes that may swing: the first ones of [`MODES`].

@@ -1,6 +1,6 @@
 //! Sets and frames that are far off: a few of them are no effect, and what most of them do is one.
 
-use super::lines::Sum;
+use super::periodogram::Sum;
 
 /// So many, and this share besides, may be outliers; of a normal distribution all but this share are within so many standard deviations.
 const FEW_OUTLIERS: (usize, f64) = (6, 0.04);

@@ -332,7 +332,7 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRo
         let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
         for (parameter, known) in piece.effect.parameters.iter().enumerate() {
             let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
-            let sigma = column.map_or(0.0, |column| fit.sigma[column]);
+            let sigma = column.map_or(0.0, |column| fit.sigma(column));
             if column.is_none() && !known.is_shape() {
                 continue;
             }
