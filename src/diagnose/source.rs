@@ -30,12 +30,13 @@ pub fn shown(fit: &Fit, inflation: f64) -> Vec<Shown> {
         let take = *piece.takes.first()?;
         let hz = values().find(|(parameter, _)| parameter.is_shape()).map(|(_, hz)| *hz)?;
         // Where frames see a line nearly at rest, neither its amplitude nor its frequency is known, but what both make together.
+        let own = fit.columns.iter().enumerate().filter(|(_, column)| column.piece == number);
         let along = |(place, column): (usize, &Column)| {
             let parameter = &piece.effect.parameters[column.parameter];
-            let is_it = column.piece == number && !parameter.is_shape();
-            is_it.then(|| (place, (piece.values[column.parameter] - parameter.off) / size))
+            let share = (piece.values[column.parameter] - parameter.off) / size;
+            (!parameter.is_shape()).then_some((place, share))
         };
-        let along: Vec<_> = fit.columns.iter().enumerate().filter_map(along).collect();
+        let along: Vec<_> = own.filter_map(along).collect();
         let fitted = sigma_along(&fit.covariance, &along);
         let sigma = fit.series.blur(take)?.max(if fitted.is_finite() { fitted } else { 0.0 });
         Some(Shown { take, hz, size: (size, sigma * inflation.sqrt()) })
