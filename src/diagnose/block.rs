@@ -4,11 +4,12 @@ use super::columns::OWN;
 use super::data::Data;
 use super::gram::Whitened;
 use nalgebra::{DMatrix, DVector};
+use ndarray::{ArrayView2, Axis};
 
 /// Columns that are solved together, and, last, the residual.
 #[derive(Debug, Clone)]
 pub struct Block {
-    /// G' W G.
+    /// G' W G, its lower triangle.
     pub full: DMatrix<f64>,
     /// The pixels' own numbers against columns and residual: (4 x pixels) x (columns + 1).
     pub mixed: DMatrix<f64>,
@@ -70,34 +71,40 @@ impl Block {
 
     /// With `rows` of a frame of number `set`, in which the columns `active` act, by their numbers.
     pub fn add(&mut self, set: usize, rows: &Rows, active: &[(usize, &[f64])]) {
-        let last = self.full.nrows() - 1;
+        let (pixels, last) = (rows.roots.len(), self.full.nrows() - 1);
         // The columns, the residual, and the set's position.
-        let mut values = DMatrix::<f64>::zeros(rows.roots.len(), active.len() + 2);
-        for ((_, column), mut values) in active.iter().zip(values.column_iter_mut()) {
-            let values = values.as_mut_slice().iter_mut();
-            values.zip(rows.roots).zip(*column).for_each(|((value, root), column)| *value = root * column);
+        let mut values = Vec::with_capacity(pixels * (active.len() + 2));
+        for (_, column) in active {
+            values.extend(column.iter().zip(rows.roots).map(|(column, root)| root * column));
         }
-        values.column_mut(active.len()).copy_from_slice(rows.residual);
-        values.column_mut(active.len() + 1).copy_from_slice(&rows.position);
+        values.extend_from_slice(rows.residual);
+        values.extend_from_slice(&rows.position);
+        let values = ArrayView2::from_shape((active.len() + 2, pixels), &values).expect("a row a column");
         let numbers: Vec<usize> = active.iter().map(|(number, _)| *number).chain([last]).collect();
-        let product = values.transpose() * &values;
-        let along = product.column(numbers.len());
-        for (product, &column) in product.column_iter().zip(&numbers) {
-            let mut sums = self.full.column_mut(column);
-            for (value, &row) in product.iter().zip(&numbers) {
-                sums[row] += value;
+        // Products of columns, each pair once but for those of one panel.
+        for first in (0..numbers.len()).step_by(PANEL) {
+            let width = PANEL.min(numbers.len() - first);
+            let rest = values.slice_axis(Axis(0), (first..).into());
+            let product = rest.slice_axis(Axis(0), (..width).into()).dot(&rest.t());
+            for (number, product) in product.outer_iter().enumerate() {
+                let column = numbers[first + number];
+                for (value, &row) in product.iter().skip(number).zip(&numbers[first + number..]) {
+                    self.full[(row.max(column), row.min(column))] += value;
+                }
+                self.position[set][column] += product[product.len() - 1];
             }
         }
-        for (along, &row) in along.iter().zip(&numbers) {
-            self.position[set][row] += along;
-        }
-        for (a, &column) in numbers.iter().enumerate() {
-            let (values, mut sums) = (values.column(a), self.mixed.column_mut(column));
-            let mix = Mix { own: &rows.own, values: values.as_slice(), sums: sums.as_mut_slice() };
+        for (values, &column) in values.outer_iter().zip(&numbers) {
+            let mut sums = self.mixed.column_mut(column);
+            let values = values.to_slice().expect("a row is a slice");
+            let mix = Mix { own: &rows.own, values, sums: sums.as_mut_slice() };
             pulp::Arch::new().dispatch(mix);
         }
     }
 }
+
+/// So many columns are multiplied with all others at a time: half of a symmetric product need not be made.
+const PANEL: usize = 64;
 
 /// Adds a column's products with the pixels' own numbers to their sums.
 struct Mix<'a> {

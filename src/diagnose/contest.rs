@@ -1,7 +1,7 @@
 //! Fits of several effects of which one is to be chosen: what a part of the sets speaks against clearly is not fitted to all.
 
 use super::data::Data;
-use super::fit::{Fit, fit};
+use super::fit::{Fit, fit_until};
 use super::gram::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
@@ -13,6 +13,8 @@ const LEAST_SAMPLES: usize = 50_000;
 /// What the best one explains of the part, but for what its form may leave, must be more by this chi squared: a part does not say
 /// exactly what all sets say.
 const CLEARLY_LESS: f64 = 100.0;
+/// What a further step would take away of what is left of a part is known without taking it, where it is less than this.
+const PART_ENOUGH: f64 = 0.1 * CLEARLY_LESS;
 /// What numbers explain by chance, in standard deviations, at most.
 const BY_CHANCE: f64 = 3.0;
 
@@ -33,20 +35,25 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         return entrants;
     }
     let sets = data.sets();
-    let left = |pieces: &[Piece]| {
-        let fit = fit(data, Some(current), pieces.to_vec(), noise, &|set| sets[set].1.is_multiple_of(PART));
-        (fit.chi2 + fit.unreached, fit.columns.len())
+    let of_part = |pieces: &[Piece]| {
+        let is_in = |set: usize| sets[set].1.is_multiple_of(PART);
+        fit_until(data, current, pieces.to_vec(), noise, &is_in, PART_ENOUGH)
     };
-    let (before, fitted) = left(&current.pieces);
-    let explained = |entrant: &Entrant| {
-        let (left, numbers) = left(&entrant.pieces);
-        let numbers = numbers.saturating_sub(fitted) as f64;
-        let all = before - left;
+    let before = of_part(&current.pieces);
+    let fits: Vec<Fit> = entrants.iter().map(|entrant| of_part(&entrant.pieces)).collect();
+    let explained = |(entrant, fit): (&Entrant, &Fit)| {
+        let numbers = fit.columns.len().saturating_sub(before.columns.len()) as f64;
+        let all = left(&before) - left(fit);
         let no_chance = all - numbers - BY_CHANCE * (2.0 * numbers).sqrt();
         Explained { all, no_chance, form: tolerance(entrant.name) }
     };
-    let stay = staying(&entrants.iter().map(explained).collect::<Vec<_>>());
+    let stay = staying(&entrants.iter().zip(&fits).map(explained).collect::<Vec<_>>());
     entrants.into_iter().zip(stay).filter(|(_, stays)| *stays).map(|(entrant, _)| entrant).collect()
+}
+
+/// What a fit leaves, but for what a further step would take away.
+fn left(fit: &Fit) -> f64 {
+    fit.chi2 + fit.unreached
 }
 
 /// What an entrant explains of a part of the sets, chi squared.

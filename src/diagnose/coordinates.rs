@@ -335,11 +335,15 @@ fn code(view: &View) -> Acting {
         for (hat, value) in hats(place, CODES) {
             columns[hat][pixel] = value;
         }
-        for (number, period) in PATTERNS.iter().enumerate() {
-            let (cosine, sine) = cos_sin(TAU * (signal + view.pixels.pedestal_dn) / period);
-            columns[CODES + 2 * number][pixel] = cosine;
-            columns[CODES + 2 * number + 1][pixel] = sine;
-        }
+    }
+    let (_, patterns) = columns.split_at_mut(CODES);
+    for (pair, period) in patterns.chunks_exact_mut(2).zip(PATTERNS) {
+        let [cosines, sines] = pair else { continue };
+        pulp::Arch::new().dispatch(|| {
+            for ((cosine, sine), signal) in cosines.iter_mut().zip(sines).zip(&base[..]) {
+                (*cosine, *sine) = cos_sin(TAU * (signal + view.pixels.pedestal_dn) / period);
+            }
+        });
     }
     columns.into_iter().enumerate().collect()
 }

@@ -107,11 +107,37 @@ pub fn fit(
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> Fit {
     let pixels = from.map_or_else(|| start(data, noise, counts), |fit| Arc::clone(&fit.pixels));
+    fit_from(data, pixels, pieces, noise, counts, ENOUGH)
+}
+
+/// The same from the pixels of `from` on, until a further step would take away less than `enough`.
+pub fn fit_until(
+    data: &Data,
+    from: &Fit,
+    pieces: Vec<Piece>,
+    noise: Noise,
+    counts: &(dyn Fn(usize) -> bool + Sync),
+    enough: f64,
+) -> Fit {
+    fit_from(data, Arc::clone(&from.pixels), pieces, noise, counts, enough)
+}
+
+fn fit_from(
+    data: &Data,
+    pixels: Arc<Pixels>,
+    pieces: Vec<Piece>,
+    noise: Noise,
+    counts: &(dyn Fn(usize) -> bool + Sync),
+    enough: f64,
+) -> Fit {
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
     let round = Round::new(data, &pixels, &pieces, noise, counts);
     let start = Model { pixels, pieces, round, is_stuck: false };
-    let step = |here: &Model, may_climb: bool| here.stepped(may_climb, data, noise, counts);
+    let step = |here: &Model, may_climb: bool| {
+        let is_there = here.is_stuck || here.round.gain < enough;
+        if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
+    };
     descend(start, ITERATIONS, &step, &|model| model.round.left()).end()
 }
 
@@ -134,9 +160,6 @@ impl Model {
         noise: Noise,
         counts: &(dyn Fn(usize) -> bool + Sync),
     ) -> Option<Self> {
-        if self.is_stuck || self.round.gain < ENOUGH {
-            return None;
-        }
         DAMPINGS.into_iter().find_map(|damping| {
             let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), damping);
             if self.round.is_far() {

@@ -66,6 +66,8 @@ impl Noise {
 /// Sets are summed in so many chunks, of so many sets at least and at most.
 const CHUNKS: usize = 16;
 const CHUNK: (usize, usize) = (8, 64);
+/// So many sets' positions are freed of the pixels' own numbers at a time.
+const TOGETHER: usize = 64;
 /// Residuals beyond so many standard deviations count as that many.
 const WINSOR: f64 = 4.0;
 
@@ -228,18 +230,22 @@ impl Gram {
         let own = block.mixed.transpose() * &solved;
         let settled = own[(size - 1, size - 1)];
         let mut full = &block.full - own;
+        full.fill_upper_triangle_with_lower_triangle();
         let mut sets = Vec::new();
         let turned = solved.transpose();
-        for ((sums, square), own) in block.position.iter().zip(&self.square).zip(&self.position_own) {
-            if sums.is_empty() || own.is_empty() {
-                continue;
-            }
-            let own = DVector::from_iterator(own.len(), own.iter().map(|&own| f64::from(own)));
-            let sums = sums - &turned * &own;
-            let own = own.as_slice().chunks_exact(OWN).map(Vector4::from_column_slice);
-            let absorbed: f64 = own.zip(inverses).map(|(own, inverse)| own.dot(&(inverse * own))).sum();
-            if square - absorbed > 0.0 {
-                sets.push((sums, square - absorbed));
+        let of_sets = block.position.iter().zip(&self.square).zip(&self.position_own);
+        let seen: Vec<_> = of_sets.filter(|((sums, _), own)| !sums.is_empty() && !own.is_empty()).collect();
+        for seen in seen.chunks(TOGETHER) {
+            let own = seen.iter().flat_map(|(_, own)| own.iter().map(|&own| f64::from(own)));
+            let own = DMatrix::from_iterator(solved.nrows(), seen.len(), own);
+            let taken = &turned * &own;
+            for (number, &((sums, square), _)) in seen.iter().enumerate() {
+                let own = own.column(number);
+                let own = own.as_slice().chunks_exact(OWN).map(Vector4::from_column_slice);
+                let absorbed: f64 = own.zip(inverses).map(|(own, inverse)| own.dot(&(inverse * own))).sum();
+                if square - absorbed > 0.0 {
+                    sets.push((sums - taken.column(number), square - absorbed));
+                }
             }
         }
         let residual = size - 1;

@@ -3,7 +3,7 @@
 use super::data::Data;
 use super::evidence::tail;
 use super::gram::Whitened;
-use super::periodogram::{FINENESS, Scan, Sum, add_powers, chi2, longest};
+use super::periodogram::{FINENESS, Scan, Sum, add_powers, chi2, greatest, longest};
 
 /// What frames and sets say of errors that they share.
 #[derive(Debug, Clone, Default)]
@@ -144,7 +144,7 @@ impl Series {
     /// strong but for what noise makes of them: at places that are nearly evenly apart a line has images that are nearly as strong.
     pub fn in_position(&self) -> Vec<Line> {
         let sets: Vec<(f64, Sum)> = self.sets.iter().map(|seen| (seen.reading_m, seen.position)).collect();
-        with_images(&sets, CYCLES_M)
+        with_images(sets, CYCLES_M)
     }
 }
 
@@ -161,26 +161,30 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> O
         let turns = frequency * period;
         period > 0.0 && (turns - turns.round()).abs() < cycles / longest * period
     };
-    let power = |&number: &usize| if is_drift(number) { 0.0 } else { powers[number] };
-    let best = (0..powers.len()).max_by(|a, b| power(a).total_cmp(&power(b)))?;
-    Some(Line { frequency: low + best as f64 * step, chi2: power(&best), looked: powers.len() as f64 })
+    let power = |number: usize| if is_drift(number) { 0.0 } else { powers[number] };
+    let lines: Vec<f64> = (0..powers.len()).map(power).collect();
+    let best = greatest(&lines);
+    let chi2 = *lines.get(best)?;
+    Some(Line { frequency: low + best as f64 * step, chi2, looked: powers.len() as f64 })
 }
 
 /// The strongest line of a series, beside a constant (Zechmeister and Kürster 2009: nothing tells how far away the target is but the readings), and that of
 /// the longest period among those that are as strong, if it is another one.
-fn with_images(group: &[(f64, Sum)], ends: (f64, f64)) -> Vec<Line> {
-    let Some(Scan { low, step, powers }) = Scan::of(&[group.to_vec()], ends, true) else { return Vec::new() };
+fn with_images(group: Vec<(f64, Sum)>, ends: (f64, f64)) -> Vec<Line> {
+    let groups = [group];
+    let Some(Scan { low, step, powers }) = Scan::of(&groups, ends, true) else { return Vec::new() };
+    let [group] = &groups;
     let most = powers.iter().copied().fold(0.0, f64::max);
     let is_peak = |&n: &usize| {
         let beside = [n.checked_sub(1), Some(n + 1)].into_iter().flatten().filter_map(|n| powers.get(n));
         powers[n] >= NEARLY * most && beside.copied().all(|beside| beside <= powers[n])
     };
-    // Between two steps a line loses a twentieth of its power, and its image somewhere else less.
+    // A line between two steps has a twentieth less there, and so has its image, but at another place between its own.
     let finer = |n: usize| {
         let first = low + (n as f64 - 1.0) * step;
         let mut fine = [0.0; 2 * FINER + 1];
         add_powers(group, first, step / FINER as f64, true, &mut fine);
-        let best = (0..fine.len()).max_by(|&a, &b| fine[a].total_cmp(&fine[b])).unwrap_or(FINER);
+        let best = greatest(&fine);
         Line {
             frequency: first + best as f64 * step / FINER as f64,
             chi2: fine[best],
@@ -214,7 +218,7 @@ fn own(group: &[(f64, Sum)], frequency: f64, step: f64) -> f64 {
     let mut powers = vec![0.0; 2 * window as usize + 1];
     add_powers(group, low, step, false, &mut powers);
     let common = powers[window as usize];
-    let best = (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b])).unwrap_or(0);
+    let best = greatest(&powers);
     let seen = group.iter().filter(|(_, sum)| sum.1 > 0.0).count();
     // More noise than was stated makes more of all frequencies.
     let noise = (chi2(group) / seen.max(1) as f64).max(1.0);
@@ -274,7 +278,7 @@ mod tests {
                     (0..51).map(|n| 3.0 * (TAU * cycles_m * at(n)).sin() + noise[n]).collect();
                 let mean = errors.iter().sum::<f64>() / errors.len() as f64;
                 let group: Vec<(f64, Sum)> = (0..51).map(|n| (at(n), (errors[n] - mean, 1.0))).collect();
-                let lines = with_images(&group, CYCLES_M);
+                let lines = with_images(group, CYCLES_M);
                 let line = lines.last().unwrap();
                 assert!((line.frequency - cycles_m).abs() < 0.1, "{cycles_m}: {lines:?}");
             }

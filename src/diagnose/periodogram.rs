@@ -9,6 +9,7 @@ pub type Sum = (f64, f64);
 
 /// Frequencies are so many times finer than the inverse of the whole length.
 pub const FINENESS: f64 = 4.0;
+
 /// The powers at frequencies from `low` on, `step` apart.
 pub struct Scan {
     /// The first frequency.
@@ -38,6 +39,11 @@ impl Scan {
         });
         Some(Self { low, step, powers: powers.collect() })
     }
+}
+
+/// Where among `powers` the greatest is; 0 where there are none.
+pub fn greatest(powers: &[f64]) -> usize {
+    (0..powers.len()).max_by(|&a, &b| powers[a].total_cmp(&powers[b])).unwrap_or(0)
 }
 
 /// The length of the longest group.

@@ -29,9 +29,12 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let pedestal_dn = exposure.pixels.pedestal_dn;
-    for signal in &mut exposure.signal_dn {
-        let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / values[2]);
-        *signal += values[0] * cosine + values[1] * sine;
-    }
+    let (pedestal_dn, values) = (exposure.pixels.pedestal_dn, [values[0], values[1], values[2]]);
+    // With the widest registers that the machine has.
+    pulp::Arch::new().dispatch(|| {
+        for signal in &mut exposure.signal_dn {
+            let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / values[2]);
+            *signal += values[0] * cosine + values[1] * sine;
+        }
+    });
 }
