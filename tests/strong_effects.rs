@@ -50,3 +50,17 @@ fn what_is_weak_beside_a_strong_effect_is_named_too() {
     let strong = &verdict["effects"][0]["evidence"]["delta_chi2"];
     assert!(strong.as_f64().unwrap() > 20.0 * weak.as_f64().unwrap(), "{strong} {weak}");
 }
+
+/// A law of geometry has no other form: what explains a thousandth of what the falloff does is no error of that.
+#[test]
+fn what_is_a_thousandth_of_the_falloff_is_named_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ["--camera", CAMERA, "--size", "12x9", "--effect", "inverse_square_falloff"];
+    let effects = ["--effect", "image_lag:share=0.003"];
+    let recordings = "four-motion,four-rail,wdft-motion,wdft-rail";
+    let verdict = verdict(folder.path(), recordings, &[&options[..], &effects].concat());
+    assert_eq!(names(&verdict), ["image_lag", "inverse_square_falloff"], "{verdict:#}");
+    let [strong, weak] =
+        [0, 1].map(|number: usize| verdict["effects"][number]["evidence"]["delta_chi2"].as_f64().unwrap());
+    assert!(weak < 1e-3 * strong, "{strong} {weak}");
+}

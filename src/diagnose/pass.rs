@@ -343,3 +343,52 @@ impl Pass {
         alone
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pass over blocks of so many candidates, chi squared and numbers.
+    fn pass(blocks: &[(usize, f64, usize)]) -> Pass {
+        let block = |&(candidate, ..): &(usize, f64, usize)| Block {
+            candidate,
+            variant: 0,
+            variants: 1.0,
+            columns: Vec::new(),
+        };
+        Pass {
+            blocks: blocks.iter().map(block).collect(),
+            scores: blocks.iter().map(|&(_, chi2, numbers)| Some((chi2, numbers))).collect(),
+            singles: blocks.iter().map(|&(_, chi2, _)| 0.5 * chi2).collect(),
+            ..Pass::default()
+        }
+    }
+
+    fn model(blocks: &[usize]) -> Model {
+        Model { blocks: blocks.to_vec(), ln_bayes: 0.0 }
+    }
+
+    #[test]
+    fn what_comes_near_the_strongest_one_is_fitted_before_one_is_chosen() {
+        // Of as many numbers four fifths of its score are near, of fewer a half.
+        let of = pass(&[(0, 790.0, 2), (1, 1000.0, 2), (2, 810.0, 2), (3, 510.0, 1), (4, 490.0, 1)]);
+        assert_eq!(of.leaders(&model(&[1, 0]), false), Some((vec![1, 2, 3], vec![0])));
+        // One that may be the strongest is not fitted beside itself.
+        assert_eq!(of.leaders(&model(&[1, 2]), false), Some((vec![1, 2, 3], vec![])));
+        // A model's strongest block is measured by itself alone.
+        assert_eq!(of.leaders(&model(&[4]), false), Some((vec![1, 2, 0, 3, 4], vec![])));
+        // No doubt, or nothing strong.
+        assert_eq!(pass(&[(0, 1000.0, 1), (1, 700.0, 1)]).leaders(&model(&[0]), false), None);
+        assert_eq!(pass(&[(0, 50.0, 1), (1, 49.0, 1)]).leaders(&model(&[0]), false), None);
+    }
+
+    #[test]
+    fn far_off_two_ways_of_each_of_six_effects_lead_and_nothing_beside_them() {
+        // Eight effects in three ways each, all about as strong, the later the weaker.
+        let ways: Vec<(usize, f64, usize)> = (0..24).map(|n| (n / 3, 1000.0 - n as f64, 1)).collect();
+        let of = pass(&ways);
+        let leading: Vec<usize> = (0..18).filter(|n| n % 3 < 2).collect();
+        assert_eq!(of.leaders(&model(&[0, 23]), true), Some((leading, vec![])));
+        assert_eq!(of.leaders(&model(&[0, 23]), false), Some((vec![0, 1, 3, 4, 6], vec![23])));
+    }
+}
