@@ -269,13 +269,15 @@ mod tests {
     /// Places nearly evenly apart, as on a rail: the line is found, whatever its place between the steps of frequency, and not one of its images.
     #[test]
     fn a_line_at_places_that_are_nearly_evenly_apart_is_not_its_image() {
-        for cycles_m in [0.75, 1.25, 2.05, 3.33, 5.17] {
+        for &(cycles_m, amplitude) in
+            [0.75, 1.25, 2.05, 3.33, 5.17].map(|c| [(c, 3.0), (c, 10.0)]).as_flattened()
+        {
             for seed in 0..4 {
                 let off = Draws::of(seed, 7).normal(51);
                 let at = |n: usize| 1.0 + 0.05 * n as f64 + 1e-4 * off[n];
                 let noise = Draws::of(seed, 8).normal(51);
                 let errors: Vec<f64> =
-                    (0..51).map(|n| 3.0 * (TAU * cycles_m * at(n)).sin() + noise[n]).collect();
+                    (0..51).map(|n| amplitude * (TAU * cycles_m * at(n)).sin() + noise[n]).collect();
                 let mean = errors.iter().sum::<f64>() / errors.len() as f64;
                 let group: Vec<(f64, Sum)> = (0..51).map(|n| (at(n), (errors[n] - mean, 1.0))).collect();
                 let lines = with_images(group, CYCLES_M);
