@@ -154,18 +154,35 @@ impl Series {
 pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> Option<Line> {
     let Scan { low, step, powers } = Scan::of(groups, ends, false)?;
     let longest = longest(groups);
+    let is_mains =
+        |frequency: f64| TWICE_MAINS_HZ.iter().any(|mains| (frequency / mains - 1.0).abs() < MAINS_OFF);
     let is_drift = |number: usize| {
         let frequency = low + number as f64 * step;
-        let is_mains = TWICE_MAINS_HZ.iter().any(|mains| (frequency / mains - 1.0).abs() < MAINS_OFF);
-        let cycles = if is_mains { MAINS_DRIFT_CYCLES } else { DRIFT_CYCLES };
+        let cycles = if is_mains(frequency) { MAINS_DRIFT_CYCLES } else { DRIFT_CYCLES };
         let turns = frequency * period;
         period > 0.0 && (turns - turns.round()).abs() < cycles / longest * period
     };
     let power = |number: usize| if is_drift(number) { 0.0 } else { powers[number] };
     let lines: Vec<f64> = (0..powers.len()).map(power).collect();
-    let best = greatest(&lines);
-    let chi2 = *lines.get(best)?;
-    Some(Line { frequency: low + best as f64 * step, chi2, looked: powers.len() as f64 })
+    let line = |number: usize| Line {
+        frequency: low + number as f64 * step,
+        chi2: lines[number],
+        looked: lines.len() as f64,
+    };
+    let best = Some(greatest(&lines)).filter(|&best| best < lines.len()).map(line)?;
+    if is_mains(best.frequency) {
+        return Some(best);
+    }
+    // Frames that are evenly apart see frequencies alike whose sum or difference is a multiple of theirs: of these lamps have twice the mains'.
+    let is_whole = |turns: f64| (turns - turns.round()).abs() < 2.0 * step * period;
+    let is_image = |number: &usize| {
+        let frequency = line(*number).frequency;
+        is_whole((best.frequency + frequency) * period) || is_whole((best.frequency - frequency) * period)
+    };
+    let as_strong = |number: &usize| lines[*number] > best.chi2 * NEARLY;
+    let of_mains = (0..lines.len()).filter(|&number| is_mains(line(number).frequency) && period > 0.0);
+    let images = of_mains.filter(is_image).filter(as_strong).map(line);
+    Some(images.max_by(|a, b| a.chi2.total_cmp(&b.chi2)).unwrap_or(best))
 }
 
 /// The strongest line of a series, beside a constant (Zechmeister and Kürster 2009: nothing tells how far away the target is but the readings), and that of
@@ -283,6 +300,23 @@ mod tests {
                 let lines = with_images(group, CYCLES_M);
                 let line = lines.last().unwrap();
                 assert!((line.frequency - cycles_m).abs() < 0.1, "{cycles_m}: {lines:?}");
+            }
+        }
+    }
+
+    /// Frames 25 ms apart see 80.2, 119.8 and 120.2 Hz alike, and 96.9 and 103.1 Hz: what may be twice the mains is.
+    #[test]
+    fn of_two_images_the_one_at_twice_the_mains_is_a_lamps() {
+        // Not quite evenly: which of the images is the strongest is chance.
+        let off = Draws::of(9, 4).normal(800);
+        let at = |n: usize| 0.025 * n as f64 + 1e-4 * off[n];
+        for (hz, stated_hz) in [(119.8, [119.8, 120.2]), (80.2, [119.8, 120.2]), (103.1, [103.1, 96.9])] {
+            for seed in 0..6 {
+                let noise = Draws::of(seed, 3).normal(800);
+                let line = |n: usize| (TAU * hz * at(n) + 1.0).sin() + noise[n];
+                let group: Vec<(f64, Sum)> = (0..800).map(|n| (at(n), (line(n), 1.0))).collect();
+                let found = strongest(&[group], FLICKER_HZ, 0.025).unwrap();
+                assert!(stated_hz.iter().any(|hz| (found.frequency - hz).abs() < 0.05), "{hz}: {found:?}");
             }
         }
     }
