@@ -62,6 +62,9 @@ pub struct Assumed {
 /// Above so many codes below full scale a sample is clipped, or about to be.
 const CLIPPED_DN: u32 = 2;
 
+/// So many signals say from where to where signals go.
+const SPANNING: usize = 100_000;
+
 impl Data {
     /// The recordings of one campaign, in which effects of `library` may be found besides.
     ///
@@ -193,6 +196,17 @@ impl Data {
         let signals =
             || self.takes.iter().flat_map(|take| &take.signal_dn).filter(|signal| signal.is_finite());
         signals().map(|&signal| f64::from(signal)).sum::<f64>() / signals().count().max(1) as f64
+    }
+
+    /// From the darkest signal to the brightest one, but for one in a thousand each, DN.
+    pub fn span_dn(&self) -> f64 {
+        let all = || self.takes.iter().flat_map(|take| &take.signal_dn).filter(|signal| signal.is_finite());
+        let every = (all().count() / SPANNING).max(1);
+        let mut some: Vec<f32> = all().step_by(every).copied().collect();
+        some.sort_unstable_by(f32::total_cmp);
+        let few = some.len() / 1000;
+        let (darkest, brightest) = (some.get(few), some.get(some.len().wrapping_sub(few + 1)));
+        darkest.zip(brightest).map_or(0.0, |(&darkest, &brightest)| f64::from(brightest - darkest))
     }
 
     /// Whether `pixel` tells its constant light from the ambient light: where the target moves, or the camera's light is once off.

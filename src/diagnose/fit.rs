@@ -22,8 +22,8 @@ pub struct Fit {
     pub columns: Vec<Column>,
     /// Covariance of the fitted parameters, with all other numbers free.
     pub covariance: DMatrix<f64>,
-    /// Chi squared, with the sets' common position errors taken out, and what their freedom costs: minus twice the logarithm of the likelihood, but
-    /// for a constant.
+    /// Chi squared, with the sets' common position errors taken out, what their freedom costs, and the logarithms of the noise's variances: minus twice
+    /// the logarithm of the likelihood, but for a constant.
     pub chi2: f64,
     /// By how much a further step would lower what is left, the pixels' own numbers' part included, which `chi2` is without: next to nothing where the
     /// fit has come to an end.

@@ -23,6 +23,8 @@ pub struct Gram {
     pub chi2: f64,
     /// Samples that count.
     pub samples: usize,
+    /// Sum of the logarithms of the noise's variance at the model's signal, over that at the measured one.
+    ln_variance: f64,
 }
 
 /// What blocks have in a frame: columns by their numbers, where they act.
@@ -58,11 +60,30 @@ pub struct Noise {
 impl Noise {
     /// One over the variance.
     pub fn weight(&self, signal_dn: f64) -> f64 {
+        1.0 / self.variance(signal_dn)
+    }
+
+    fn variance(&self, signal_dn: f64) -> f64 {
         let signal_dn = signal_dn.max(0.0);
-        1.0 / (self.floor + signal_dn * (self.slope + signal_dn * self.square))
+        self.floor + signal_dn * (self.slope + signal_dn * self.square)
+    }
+
+    /// Sum of the logarithms of the variance at the model's signals, whose weights have these `roots`, over that at the measured `signals`. A model whose
+    /// signals are too great has too great a variance, and chi squared alone would prefer it.
+    fn ln_variance(&self, signals: &[f32], roots: &[f64]) -> f64 {
+        let ratio = |(&measured, &root): (&f32, &f64)| match root > 0.0 {
+            true => root * root * self.variance(f64::from(measured)),
+            false => 1.0,
+        };
+        let of_some = |(signals, roots): (&[f32], &[f64])| {
+            signals.iter().zip(roots).map(ratio).product::<f64>().ln()
+        };
+        -signals.chunks(LOGARITHM).zip(roots.chunks(LOGARITHM)).map(of_some).sum::<f64>()
     }
 }
 
+/// So many ratios are multiplied before the logarithm is taken.
+const LOGARITHM: usize = 8;
 /// Sets are summed in so many chunks, of so many sets at least and at most.
 const CHUNKS: usize = 16;
 const CHUNK: (usize, usize) = (8, 64);
@@ -95,6 +116,7 @@ impl Gram {
             blocks: columns.iter().map(|&columns| Block::empty(pixels, columns, sets)).collect(),
             chi2: 0.0,
             samples: 0,
+            ln_variance: 0.0,
         }
     }
 
@@ -109,6 +131,7 @@ impl Gram {
         self.blocks.iter_mut().zip(other.blocks).for_each(|(block, other)| block.join(other));
         self.chi2 += other.chi2;
         self.samples += other.samples;
+        self.ln_variance += other.ln_variance;
         self
     }
 
@@ -172,6 +195,8 @@ impl Gram {
                         let (roots, residual) = (&roots[..], &residual[..]);
                         let whitened = Whitened { take, set: number, index, frame: &frame, roots, residual };
                         visited = visit(visited, &whitened);
+                        let measured = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
+                        sums.ln_variance += noise.ln_variance(measured, roots);
                         sums.add(data, &whitened, &fill(take, index, &frame));
                     }
                 }
@@ -261,7 +286,7 @@ impl Gram {
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();
         let raw = DVector::from_fn(residual, |column, _| block.full[(column, column)]);
-        let chi2 = full[(residual, residual)] + freedom;
+        let chi2 = full[(residual, residual)] + freedom + self.ln_variance;
         Projected { matrix, vector, raw, jitter_m2, chi2, settled, solved }
     }
 }
@@ -331,8 +356,8 @@ pub struct Projected {
     pub raw: DVector<f64>,
     /// Variance of the encoder's reading, m².
     pub jitter_m2: f64,
-    /// Chi squared after the projection, and what the freedom of the sets' errors costs: minus twice the logarithm of the likelihood, but for a
-    /// constant.
+    /// Chi squared after the projection, what the freedom of the sets' errors costs, and the logarithms of the noise's variances: minus twice the
+    /// logarithm of the likelihood, but for a constant.
     pub chi2: f64,
     /// Chi squared that the pixels' own numbers take away by a step.
     pub settled: f64,

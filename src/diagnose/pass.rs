@@ -107,7 +107,8 @@ impl Pass {
                     }
                     tried.push(piece.clone());
                 }
-                blocks.push(Block { candidate: number, variant, variants: candidate.looked, columns });
+                let variants = candidate.looked * of.rarity;
+                blocks.push(Block { candidate: number, variant, variants, columns });
             }
         }
         let (tangents, _) = Tangents::new(data, &base.pixels, &base.pieces, &tried);

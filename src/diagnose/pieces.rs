@@ -24,6 +24,8 @@ pub struct Piece {
 pub struct Variant {
     /// The pieces, all of the same effect.
     pub pieces: Vec<Piece>,
+    /// So many times less likely than other ways, before anything is seen.
+    pub rarity: f64,
 }
 
 impl Variant {
@@ -73,6 +75,10 @@ const GROUPINGS: [(&str, &[Grouping]); 7] = [
 ];
 /// Effects that start with a corner, and the values at which they are tried.
 const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8])];
+
+/// A converter's error of which the recordings do not see a whole period is smooth: what they see of it is a response, too, and so many smooth
+/// curves are the response's for one of a converter.
+const SMOOTH: (&str, f64) = ("adc_nonlinearity", 10.0);
 
 /// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
 const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
@@ -179,7 +185,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
             takes: (0..data.takes.len()).collect(),
             finite: true,
         };
-        return values.iter().map(|value| Variant { pieces: vec![piece(value)] }).collect();
+        return values.iter().map(|value| Variant { pieces: vec![piece(value)], rarity: 1.0 }).collect();
     }
     let find = |is: &dyn Fn(&Parameter) -> bool| effect.parameters.iter().position(is);
     let shape = find(&|parameter| parameter.is_shape() && !parameter.is_choice);
@@ -195,6 +201,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     };
     let (strengths, instead) = (strengths(false), strengths(true));
     let mut variants = Vec::new();
+    let seen_dn = if effect.name == SMOOTH.0 { data.span_dn() } else { f64::INFINITY };
     let full_scale_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
     let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));
@@ -210,7 +217,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         let strengths =
             if is_shared { strengths.get(..chosen as usize).unwrap_or(&strengths) } else { &strengths[..] };
         for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
-            let of = |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data) };
+            let rarity = if value > seen_dn { SMOOTH.1 } else { 1.0 };
+            let of = |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data), rarity };
             variants.extend(groupings.iter().map(of));
         }
     }
