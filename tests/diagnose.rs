@@ -51,7 +51,7 @@ fn clean_campaigns_are_clean_and_every_field_is_there() {
 }
 
 /// Effects with values, and the parameter that must come back.
-const SINGLE: [(&str, &str, &str, f64); 8] = [
+const SINGLE: [(&str, &str, &str, f64); 9] = [
     ("image_lag", "image_lag:share=0.02", "share", 0.02),
     // Of five frames another one comes before the first.
     ("image_lag", "image_lag:share=0.02,last_step_before_first=1", "last_step_before_first", 1.0),
@@ -65,6 +65,8 @@ const SINGLE: [(&str, &str, &str, f64); 8] = [
     ),
     ("ambient_flicker", "ambient_flicker:cosine=0.05,sine=0.02,frequency_hz=103.1", "frequency_hz", 103.1),
     ("encoder_cyclic", "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.137", "period_m", 0.137),
+    // The light falls off with the true distance.
+    ("encoder_offset", "encoder_offset:offset_m=0.01", "offset_m", 0.01),
     // The runs' velocities are off, and differ from set to set: that is no jitter of the frames' times.
     (
         "encoder_cyclic",

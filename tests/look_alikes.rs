@@ -224,3 +224,38 @@ fn a_converters_s_is_told_or_said_to_be_possible() {
     let said: Vec<_> = possible.iter().chain([&effects[0]["name"]]).filter_map(Value::as_str).collect();
     assert!(said.contains(&"adc_nonlinearity"), "{verdict:#}");
 }
+
+/// What bends the codes by less than a bow over all that is seen is a response: that of the pixels is usual, one of the converter is not.
+#[test]
+fn a_response_that_bends_is_no_converters_error() {
+    let bent: [fn(f64) -> f64; 3] = [
+        |signal_dn| signal_dn + 8e-6 * signal_dn * signal_dn,
+        |signal_dn| 1e5 * -(-signal_dn / 1e5).exp_m1(),
+        |signal_dn| signal_dn / (1.0 + signal_dn / 8e4),
+    ];
+    for (number, bent) in bent.into_iter().enumerate() {
+        let verdict = verdict_of("four-rail,four-sweep,wdft-sweep,wdft-motion", |sample| {
+            with(Sample { code: 64.0, ..sample }, bent(sample.code - 64.0))
+        });
+        assert_eq!(names(&verdict), ["intensity_nonlinearity"], "{number}: {verdict:#}");
+    }
+}
+
+/// Light that goes on drifting between recordings: one drift, that had begun before, and no lamp at a frequency that frames see at rest.
+#[test]
+fn a_drift_that_began_before_the_recording_is_one_drift() {
+    let verdict = verdict_of("four-rail,four-sweep,wdft-sweep", |sample| {
+        let time_s = 40.0 * sample.recording as f64 + time_s(sample);
+        with(sample, 2.0 * (1.0 - (-time_s / 80.0).exp()))
+    });
+    assert_eq!(names(&verdict), ["ambient_drift"], "{verdict:#}");
+    let before = verdict["held_out"]["chi2_per_dof_after"].as_f64().unwrap();
+    assert!((before - 1.0).abs() < 0.02, "{verdict:#}");
+}
+
+/// A phase shifter of which every step is too large makes the sets' phase offsets too large as well, which in a sweep is no drift.
+#[test]
+fn a_scale_of_steps_and_offsets_is_no_drift() {
+    let both = "phase_step_scale:relative=0.004,scales_the_offset=1";
+    assert_eq!(names_of(both), ["phase_step_scale"]);
+}

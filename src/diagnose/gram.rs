@@ -70,14 +70,13 @@ impl Noise {
 
     /// Sum of the logarithms of the variance at the model's signals, whose weights have these `roots`, over that at the measured `signals`. A model whose
     /// signals are too great has too great a variance, and chi squared alone would prefer it.
-    fn ln_variance(&self, signals: &[f32], roots: &[f64]) -> f64 {
+    pub fn ln_variance(&self, signals: &[f32], roots: &[f64]) -> f64 {
         let ratio = |(&measured, &root): (&f32, &f64)| match root > 0.0 {
             true => root * root * self.variance(f64::from(measured)),
             false => 1.0,
         };
-        let of_some = |(signals, roots): (&[f32], &[f64])| {
-            signals.iter().zip(roots).map(ratio).product::<f64>().ln()
-        };
+        let of_some =
+            |(signals, roots): (&[f32], &[f64])| signals.iter().zip(roots).map(ratio).product::<f64>().ln();
         -signals.chunks(LOGARITHM).zip(roots.chunks(LOGARITHM)).map(of_some).sum::<f64>()
     }
 }

@@ -27,6 +27,8 @@ const FAR_SHARE: f64 = 0.25;
 const MOST_FAR_LEADERS: usize = 6;
 /// Beyond so much evidence (nats) the tangents at the baseline need not hold at the fit.
 const STRONG_NATS: f64 = 30.0;
+/// A shape that was fitted explains something by chance, too.
+const SHAPE_NATS: f64 = 1.0;
 /// A form may leave so many times its tolerance before it is not believed.
 pub const DISBELIEF: f64 = 3.0;
 /// Less evidence than this (nats) asserts nothing.
@@ -160,10 +162,8 @@ impl Pass {
         }
         let singles = (0..blocks.len()).map(|block| evidence.ln_bayes(&[block])).collect();
         let name = |block: &Block| candidates[block.candidate].effect.name;
-        let simpler = match base.columns.len() {
-            0 => Simpler::of(&evidence, &blocks, gram.samples, &name),
-            _ => Simpler::default(),
-        };
+        let simpler = || Simpler::of(&evidence, &blocks, gram.samples, &name);
+        let simpler = if base.columns.is_empty() { simpler() } else { Simpler::default() };
         Self { simpler, models: evidence.models(), scores, invisible, detectable, singles, blocks }
     }
 
@@ -219,10 +219,12 @@ impl Pass {
         (leaders.len() > 1).then_some((leaders, others))
     }
 
-    /// Evidence of a block by its `fit` to data whose chi squared was `before`, nats.
-    pub fn fitted_ln_bayes(&self, block: usize, before: f64, fit: &Fit) -> f64 {
+    /// Evidence of a block of the effect `name` by its `fit` to data whose chi squared was `before`, nats.
+    pub fn fitted_ln_bayes(&self, block: usize, name: &str, before: f64, fit: &Fit) -> f64 {
         let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);
-        self.singles[block] + 0.5 * (before - fit.chi2 - fit.unreached - score)
+        let own = fit.pieces.iter().filter(|piece| piece.effect.name == name);
+        let by_chance = SHAPE_NATS * own.map(Piece::shapes).sum::<usize>() as f64;
+        self.singles[block] + 0.5 * (before - fit.chi2 - fit.unreached - score) - by_chance
     }
 
     /// Of blocks and their fits, to data whose chi squared was `before`: the best one, with its fit, and the effects that come as near as
@@ -235,7 +237,9 @@ impl Pass {
         is_far: bool,
     ) -> Option<(Model, Fit, Vec<String>)> {
         let explained = |fit: &Fit| before - fit.chi2 - fit.unreached;
-        let judged = |(block, fit): (usize, Fit)| (self.fitted_ln_bayes(block, before, &fit), block, fit);
+        let judged = |(block, fit): (usize, Fit)| {
+            (self.fitted_ln_bayes(block, self.name(block, candidates), before, &fit), block, fit)
+        };
         let mut judged: Vec<(f64, usize, Fit)> = fits.map(judged).collect();
         // A model that is no number anywhere fits nothing.
         judged.retain(|fitted| fitted.0.is_finite());

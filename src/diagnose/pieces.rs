@@ -19,6 +19,13 @@ pub struct Piece {
     pub finite: bool,
 }
 
+impl Piece {
+    /// How many of its shapes are fitted.
+    pub fn shapes(&self) -> usize {
+        self.free.iter().filter(|&&number| self.effect.parameters[number].is_shape()).count()
+    }
+}
+
 /// One way in which an effect may be there: its pieces together.
 #[derive(Debug, Clone)]
 pub struct Variant {
@@ -218,7 +225,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
             if is_shared { strengths.get(..chosen as usize).unwrap_or(&strengths) } else { &strengths[..] };
         for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
             let rarity = if value > seen_dn { SMOOTH.1 } else { 1.0 };
-            let of = |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data), rarity };
+            let of =
+                |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data), rarity };
             variants.extend(groupings.iter().map(of));
         }
     }
@@ -247,8 +255,12 @@ fn pieces(
         .into_iter()
         .map(|takes| {
             let frames = takes.iter().map(|&take| data.takes[take].frames).max().unwrap_or(0);
-            // A parameter of a frame that there is not.
-            let there = |&number: &usize| by != Grouping::Scheme || number < frames;
+            // A parameter of a frame that there is not, and one that each recording has for itself.
+            let there = |&number: &usize| match by {
+                Grouping::Scheme => number < frames,
+                Grouping::All => !effect.parameters[number].is_of_recording,
+                Grouping::Take => true,
+            };
             let free = strengths.iter().copied().filter(there).collect();
             Piece { effect, values: values.to_vec(), free, takes, finite: false }
         })

@@ -187,7 +187,12 @@ impl<'a> Search<'a> {
             } else if !others.is_empty() {
                 // Of a pair the strongest member comes first, with its own evidence.
                 fitted = with(&single.blocks);
-                let ln_bayes = pass.fitted_ln_bayes(single.blocks[0], current.chi2, &fitted);
+                let ln_bayes = pass.fitted_ln_bayes(
+                    single.blocks[0],
+                    pass.name(single.blocks[0], candidates),
+                    current.chi2,
+                    &fitted,
+                );
                 single = Model { ln_bayes, ..single };
             }
             if !is_far {

@@ -22,6 +22,8 @@ pub struct Parameter {
     pub is_choice: bool,
     /// A strength that says in another way what the others say: off as a rule, and fitted in their place.
     pub is_instead: bool,
+    /// A strength that only matters where each recording has its own: off as a rule.
+    pub is_of_recording: bool,
     /// How far from 0 it may be at most, in full scales; infinite where that does not matter.
     pub most_full_scales: f64,
 }
@@ -44,6 +46,7 @@ impl Parameter {
             shapes: &[],
             is_choice: false,
             is_instead: false,
+            is_of_recording: false,
             most_full_scales: f64::INFINITY,
         }
     }
@@ -52,6 +55,12 @@ impl Parameter {
     #[must_use]
     pub const fn instead(self) -> Self {
         Self { is_instead: true, ..self }
+    }
+
+    /// The same of one recording: those of all together cannot be seen.
+    #[must_use]
+    pub const fn of_recording(self) -> Self {
+        Self { is_of_recording: true, ..self }
     }
 
     /// The same of a code, with at most so many full scales.

@@ -2,13 +2,14 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
-/// Relative change of the camera's own light by the time a warm-up takes, and that time.
+/// Relative loss of the camera's own light by the time a warm-up takes, what it had lost when the recording began, and the time of a warm-up.
 pub static EFFECT: Effect = Effect {
     name: "illumination_drift",
     sentence: "The power of the camera's own light drifts over minutes as it warms up.",
     reference: "A(t) = A (1 - k (1 - exp(-t/tau)))",
     parameters: &[
         Parameter::strength("relative", "1", 0.0, (-0.8, 0.8), 0.03),
+        Parameter::strength("relative_before", "1", 0.0, (-0.8, 0.8), 0.03).of_recording(),
         Parameter::shape("time_constant_s", "s", 30.0, (2.0, 2000.0), &[10.0, 60.0, 600.0]),
     ],
     place: Place::Light,
@@ -18,6 +19,6 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let warm = 1.0 - libm::exp(-exposure.moment.time_s / values[1]);
-    exposure.scale_light(1.0 - values[0] * warm);
+    let warm = 1.0 - libm::exp(-exposure.moment.time_s / values[2]);
+    exposure.scale_light(1.0 - values[1] - values[0] * warm);
 }

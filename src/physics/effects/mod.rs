@@ -10,6 +10,7 @@ mod correlation_harmonics;
 mod demodulation_skew;
 mod electrical_crosstalk;
 mod encoder_cyclic;
+mod encoder_offset;
 mod encoder_scale;
 mod excess_noise;
 mod fixed_point;
@@ -73,6 +74,7 @@ pub static EFFECTS: &[&Effect] = &[
     &fixed_point::EFFECT,
     // New ones come last: what chance draws follows the order.
     &response_decay::EFFECT,
+    &encoder_offset::EFFECT,
 ];
 
 /// The effect called `name`.

@@ -2,13 +2,14 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
-/// Drift of the phase by the time a warm-up takes, and that time.
+/// Drift of the phase by the time a warm-up takes, by how much it had drifted when the recording began, and the time of a warm-up.
 pub static EFFECT: Effect = Effect {
     name: "phase_drift",
     sentence: "The phase of light against sensor drifts while the camera warms up, for all pixels alike.",
     reference: "Corti et al. 2015; phi_0(t) = k (1 - exp(-t/tau))",
     parameters: &[
         Parameter::strength("drift_rad", "rad", 0.0, (-1.0, 1.0), 0.01),
+        Parameter::strength("drift_before_rad", "rad", 0.0, (-1.0, 1.0), 0.01).of_recording(),
         Parameter::shape("time_constant_s", "s", 30.0, (2.0, 2000.0), &[10.0, 60.0, 600.0]),
     ],
     place: Place::Clock,
@@ -19,5 +20,5 @@ pub static EFFECT: Effect = Effect {
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     // A later phase of the light is an earlier angle.
-    exposure.angle_rad -= values[0] * (1.0 - libm::exp(-exposure.moment.time_s / values[1]));
+    exposure.angle_rad -= values[1] + values[0] * (1.0 - libm::exp(-exposure.moment.time_s / values[2]));
 }
