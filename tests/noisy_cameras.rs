@@ -88,6 +88,19 @@ fn noise_that_was_not_stated_raises_no_alarm() {
     }
 }
 
+/// Offsets of frames many times as great as a pixel's noise let lines, gains and phase steps appear that nobody needs.
+#[test]
+fn frames_far_noisier_than_pixels_are_noise() {
+    let folder = tempfile::tempdir().unwrap();
+    let noises: [(&str, Added); 2] =
+        [("3 DN", |(frame, ..), _| 3.0 * draw(9, frame)), ("8 DN", |(frame, ..), _| 8.0 * draw(10, frame))];
+    for (what, noise) in noises {
+        let verdict = verdict(&campaign(folder.path(), what, &[], noise));
+        assert_eq!(verdict["verdict"], "clean", "{what}: {verdict:#}");
+        assert!(shared(&verdict).contains("common to a frame"), "{what}: {verdict:#}");
+    }
+}
+
 #[test]
 fn an_effect_is_named_beside_noise_that_was_not_stated() {
     let folder = tempfile::tempdir().unwrap();

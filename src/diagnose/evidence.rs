@@ -55,6 +55,9 @@ const LEAST_PRIOR: f64 = 4.0;
 /// By so much evidence (nats) each way is preferred to the next one.
 const FIRST_NATS: f64 = 0.01;
 
+/// Of two effects together each has at least this share of its information for itself.
+const OWN: f64 = 0.04;
+
 /// Coordinates among which waves are: each has to be believed against the others.
 const LOOKED: f64 = 25.0;
 
@@ -261,12 +264,24 @@ impl<'a> Evidence<'a> {
         ln_bayes - effects - effects * (2.0 * self.candidates).ln() - variants - later
     }
 
-    /// All single blocks and all pairs of different candidates, best first.
+    /// Whether all that one of two blocks changes, but for next to nothing, the other one can change, too: both at once are no answer, because
+    /// what one of them makes the other takes away.
+    fn contains(&self, one: usize, other: usize) -> bool {
+        let (Some(one), Some(other)) = (&self.white[one], &self.white[other]) else { return false };
+        let (few, many) = if one.score.len() <= other.score.len() { (one, other) } else { (other, one) };
+        let cross = few.basis.tr_mul(&many.informed);
+        let shared = (&cross * cross.transpose()).symmetric_eigenvalues();
+        shared.iter().all(|&share| share > 1.0 - OWN)
+    }
+
+    /// All single blocks and all pairs of different candidates, best first, but for pairs of which one contains the other.
     pub fn models(&self) -> Vec<Model> {
         let seen: Vec<usize> = (0..self.blocks.len()).filter(|&block| self.white[block].is_some()).collect();
         let candidate = |block: usize| self.blocks[block].candidate;
+        let may_be =
+            |one: usize, other: usize| candidate(other) != candidate(one) && !self.contains(one, other);
         let beside = |(place, &one): (usize, &usize)| {
-            let others = seen[place + 1..].iter().filter(|&&other| candidate(other) != candidate(one));
+            let others = seen[place + 1..].iter().filter(|&&other| may_be(one, other));
             others.map(|&other| vec![one, other]).collect::<Vec<_>>()
         };
         let alone = seen.iter().map(|&block| vec![block]);
@@ -309,6 +324,23 @@ mod tests {
             // 380, and three standard deviations of a binomial number.
             assert!((367..=393).contains(&seen), "{numbers} {variants}: {seen} of {DRAWS}, rho {rho}");
         }
+    }
+
+    /// Two columns of unit information, of which the second has this share for itself, and a score that only their difference explains.
+    fn pairs(own: f64) -> usize {
+        let cosine = (1.0_f64 - own).sqrt();
+        let matrix = DMatrix::from_row_slice(2, 2, &[1.0, cosine, cosine, 1.0]);
+        let score = &matrix * DVector::from_vec(vec![200.0, -200.0]);
+        let raw = DVector::from_element(2, 1.0);
+        let block = |candidate| Block { candidate, variant: 0, variants: 1.0, columns: vec![candidate] };
+        let blocks = [block(0), block(1)];
+        let evidence = Evidence::new(&matrix, &score, &raw, &|_| f64::INFINITY, &blocks, 2);
+        evidence.models().iter().filter(|model| model.blocks.len() == 2).count()
+    }
+
+    #[test]
+    fn of_two_that_do_the_same_both_are_no_answer() {
+        assert_eq!([0.3, 0.06, 0.03, 1e-5].map(pairs), [1, 1, 0, 0]);
     }
 
     #[test]

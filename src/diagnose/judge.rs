@@ -21,8 +21,10 @@ use crate::physics::effects;
 const LOCATED_NATS: f64 = 4.0;
 /// What an effect's freedom costs, nats, where its evidence is taken from its fit.
 const OCCAM_NATS: f64 = 10.0;
-/// What the freedom of a few numbers costs at most, nats.
-const FREEDOM_NATS: f64 = 25.0;
+/// What the freedom of a few numbers costs at most, and what that of each of many does, nats.
+const FREEDOM_NATS: (f64, f64) = (25.0, 5.0);
+/// What that of each number costs at least, beside random errors.
+const LEAST_FREEDOM_NATS: f64 = 3.0;
 /// How often the noise is corrected.
 const NOISE_STEPS: usize = 2;
 
@@ -102,13 +104,29 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     }
     let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };
     let mut places = places(data, &baseline);
-    let mut left = self::places(data, &end);
     // What random errors let appear among the columns is not asserted.
     let inflation = inflation(data, &end);
     // A line of several sources was found, but is not what has its name.
     let several = several(&found, inflation);
     let is_clear = |line: &&Place| deflated(inflation, line.ln_bayes, line.chi2.0) > LOCATED_NATS;
     let unnamed = several.as_ref().filter(is_clear);
+    let stands = |named: &Named| {
+        // Of two that were found together the evidence is that of both.
+        let together = found.named.iter().filter(|other| other.ln_bayes == named.ln_bayes);
+        let chi2: f64 = together.map(|named| named.score.0).sum();
+        // A fit may explain much more, or less, than the tangents from which the evidence is.
+        let most = FREEDOM_NATS.0.max(FREEDOM_NATS.1 * named.score.1 as f64);
+        let least = LEAST_FREEDOM_NATS * named.score.1 as f64;
+        let chi2 = chi2.max(2.0 * (named.ln_bayes + least)).min(2.0 * (named.ln_bayes + most));
+        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && (named.name != FLICKER || several.is_none())
+    };
+    let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
+    let dropped = named.len() < found.named.len();
+    if named.is_empty() {
+        // Where nothing is asserted, nothing is fitted: names that noise brought took its whiteness with them.
+        end = baseline.clone();
+    }
+    let mut left = self::places(data, &end);
     if let Some(line) = unnamed {
         for places in [&mut places, &mut left] {
             // Random errors give way to what orders them.
@@ -117,18 +135,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
             places.insert(at.unwrap_or(places.len()), line.clone());
         }
     }
-    let stands = |named: &Named| {
-        // Of two that were found together the evidence is that of both.
-        let together = found.named.iter().filter(|other| other.ln_bayes == named.ln_bayes);
-        let chi2: f64 = together.map(|named| named.score.0).sum();
-        // A fit may explain much more, or less, than the tangents from which the evidence is.
-        let chi2 = chi2.max(2.0 * named.ln_bayes).min(2.0 * (named.ln_bayes + FREEDOM_NATS));
-        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && (named.name != FLICKER || several.is_none())
-    };
-    let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
     let of_line = unnamed.map_or(0.0, |line| line.chi2.0);
-    let explained = (found.baseline.chi2 - found.fit.chi2 - of_line).max(0.0);
-    let dropped = named.len() < found.named.len();
+    let of_names = if named.is_empty() { 0.0 } else { found.baseline.chi2 - found.fit.chi2 };
+    let explained = (of_names - of_line).max(0.0);
 
     // A random effect takes with it what is left at random.
     let random = random_effect(data, &end);
