@@ -128,8 +128,7 @@ impl Clusters {
         // From the middle of the set on, so that another velocity leaves its place where it is.
         let from_middle_s = moment.in_set_s - 0.5 * (take.frames - 1) as f64 * moment.frame_period_s;
         let sizes = [1, geometry.height, width, blocks * geometry.height.div_ceil(2), geometry.pixels()];
-        let mut of_frame = [(0.0, 0.0); MODES.len()];
-        for (mode, whole) in of_frame.iter_mut().enumerate() {
+        for mode in 0..MODES.len() {
             // A set is at another place as a whole; a frame is only if it is taken at another time of a movement.
             if mode >= 3 {
                 let per = if mode == 3 { 1.0 } else { from_middle_s };
@@ -159,7 +158,6 @@ impl Clusters {
                     sums[place].1 += value * value;
                 }
             }
-            *whole = sums[0][0];
             if mode != 3 {
                 self.set[mode].0 += sums[0][0].0;
                 self.set[mode].1 += sums[0][0].1;
@@ -184,11 +182,7 @@ impl Clusters {
                 }
             }
         }
-        let by_both = |pixel: usize| {
-            whitened.roots[pixel].powi(2) * velocity_m_s * frame.position[pixel] * frame.own[1][pixel]
-        };
-        let shared = if velocity_m_s == 0.0 { 0.0 } else { (0..whitened.roots.len()).map(by_both).sum() };
-        self.jitters.add(Frame { phase: of_frame[PHASE], time: of_frame[POSITION], shared });
+        self.jitters.add(Frame::seen(frame, whitened.roots, whitened.residual, velocity_m_s));
         if (whitened.index + 1).is_multiple_of(take.frames) {
             let sums = std::mem::take(&mut self.set);
             // Without its light the camera has neither gain nor phase.

@@ -47,7 +47,7 @@ pub struct Whitened<'a> {
 }
 
 /// Variance of the noise at a signal, DN².
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
     /// Read noise and quantisation, DN².
     pub floor: f64,

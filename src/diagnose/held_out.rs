@@ -8,12 +8,13 @@ use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::fit::{Fit, fit, improved, settled};
 use super::gram::{Noise, whiten};
+use super::jitters::{self, Jitters};
 
 use crate::spec::SCHEMES;
 use crate::units::phase_rad;
 use num_complex::Complex64;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Agreement of a prediction with the recordings.
@@ -49,8 +50,12 @@ const GROUP: usize = 4;
 const FOLDS: usize = 2;
 
 /// What a set shows.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 struct Seen {
+    /// The fold, or part, in which it was predicted.
+    fold: usize,
+    /// What each frame says of random errors, where these are looked at.
+    jitters: Vec<jitters::Frame>,
     /// Its recording.
     take: usize,
     chi2: f64,
@@ -66,19 +71,38 @@ struct Seen {
     distance_m: f64,
 }
 
+/// A model: what is fitted, what noise its samples have, and which of the jitters of a frame's phase and of its time.
+#[derive(Debug, Clone, Copy)]
+pub struct Model<'a> {
+    /// Effects and pixels.
+    pub fit: &'a Fit,
+    /// Noise of single samples.
+    pub noise: Noise,
+    /// Whether there are random errors of frames: of their phase, and of their time.
+    pub jitters: [bool; 2],
+}
+
+impl Model<'_> {
+    fn has_jitters(&self) -> bool {
+        self.jitters.contains(&true)
+    }
+}
+
 /// Predicts every set of `data` by `before` and by `after`, neither of which has seen it.
-pub fn held_out(data: &Data, before: &Fit, after: &Fit, noise: Noise) -> HeldOut {
+pub fn held_out(data: &Data, before: Model, after: Model) -> HeldOut {
     let is_few = data.sets().len() < FOLDS * GROUP;
-    let predict = |fit: &Fit| -> Vec<Seen> {
+    let predict = |model: Model| -> Vec<Seen> {
         let parts = (0..if is_few { PARTS } else { FOLDS }).flat_map(|part| match is_few {
-            true => predicted_frames(data, fit, noise, part),
-            false => predicted(data, fit, noise, part, before.is_far()),
+            true => predicted_frames(data, model, part),
+            false => predicted(data, model, part, before.fit.is_far()),
         });
         // In the order of the sets.
-        parts.collect::<BTreeMap<usize, Seen>>().into_values().collect()
+        let seen = parts.collect::<BTreeMap<usize, Seen>>().into_values().collect();
+        if model.has_jitters() { with_jitters(seen, model.jitters) } else { seen }
     };
     let old = predict(before);
-    let new = if after.pieces.is_empty() { old.clone() } else { predict(after) };
+    let is_other = !after.fit.pieces.is_empty() || after.has_jitters() || after.noise != before.noise;
+    let new = if is_other { predict(after) } else { old.clone() };
     let differences: Vec<f64> = old.iter().zip(&new).map(|(old, new)| old.unlikely - new.unlikely).collect();
     let count = differences.len().max(1) as f64;
     let mean = differences.iter().sum::<f64>() / count;
@@ -86,7 +110,7 @@ pub fn held_out(data: &Data, before: &Fit, after: &Fit, noise: Noise) -> HeldOut
     let by_frames = data.schemes().into_iter().map(|frames| {
         let of = |seen: &[Seen]| {
             let of: Vec<Seen> =
-                seen.iter().filter(|seen| data.takes[seen.take].frames == frames).copied().collect();
+                seen.iter().filter(|seen| data.takes[seen.take].frames == frames).cloned().collect();
             agreement(&of).distance_rms_m
         };
         (frames, of(&old), of(&new))
@@ -98,6 +122,25 @@ pub fn held_out(data: &Data, before: &Fit, after: &Fit, noise: Noise) -> HeldOut
         z: if scatter > 0.0 { mean / scatter * count.sqrt() } else { 0.0 },
         sets: if is_few { data.sets().len() } else { old.len() },
     }
+}
+
+/// With random errors of frames, as strong as the other folds show them.
+fn with_jitters(mut sets: Vec<Seen>, exist: [bool; 2]) -> Vec<Seen> {
+    let folds: BTreeSet<usize> = sets.iter().map(|set| set.fold).collect();
+    for fold in folds {
+        let mut others = Jitters::default();
+        let of_others = sets.iter().filter(|set| set.fold != fold).flat_map(|set| &set.jitters);
+        of_others.for_each(|frame| others.add(*frame));
+        let (phase_rad, time_s) = others.likeliest(exist);
+        for set in sets.iter_mut().filter(|set| set.fold == fold) {
+            for frame in &set.jitters {
+                let (square, ln_determinant) = frame.explained(phase_rad, time_s);
+                set.chi2 -= square;
+                set.unlikely += ln_determinant - square;
+            }
+        }
+    }
+    sets
 }
 
 fn agreement(sets: &[Seen]) -> Agreement {
@@ -120,7 +163,8 @@ const PARTS: usize = 4;
 const SETTLING: usize = 3;
 
 /// A half of the image in every other frame: `(a number of its own for each set, what it shows)`.
-fn predicted_frames(data: &Data, of: &Fit, noise: Noise, part: usize) -> Vec<(usize, Seen)> {
+fn predicted_frames(data: &Data, model: Model, part: usize) -> Vec<(usize, Seen)> {
+    let Model { fit: of, noise, .. } = model;
     let (half, odd) = (part / 2, part % 2);
     let half_of = |pixel: usize| 2 * pixel / data.pixels().max(1);
     let elsewhere = data.only(|_, pixel| half_of(pixel) != half);
@@ -132,16 +176,17 @@ fn predicted_frames(data: &Data, of: &Fit, noise: Noise, part: usize) -> Vec<(us
     let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
     let sets = data.sets().into_iter().enumerate();
     let of_set = |(number, (take, set))| {
-        let seen = seen(&held, &tangents, noise, take, set)?;
+        let seen = seen(&held, &tangents, model, take, set)?;
         // Half of the frames have no distance.
-        Some((PARTS * number + part, Seen { distance_m: f64::NAN, ..seen }))
+        Some((PARTS * number + part, Seen { distance_m: f64::NAN, fold: part, ..seen }))
     };
     sets.filter_map(of_set).collect()
 }
 
 /// The sets of a fold, by number, seen by a model that was fitted to the others. For the pixels' own numbers one step from what was fitted to all is
 /// enough, unless the mismatch `is_far` above the noise.
-fn predicted(data: &Data, of: &Fit, noise: Noise, fold: usize, is_far: bool) -> Vec<(usize, Seen)> {
+fn predicted(data: &Data, model: Model, fold: usize, is_far: bool) -> Vec<(usize, Seen)> {
+    let Model { fit: of, noise, .. } = model;
     let is_held = |set: usize| set / GROUP % FOLDS == fold;
     let (pixels, pieces) = if is_far || !of.pieces.is_empty() {
         let fit = fit(data, Some(of), of.pieces.clone(), noise, &|set| !is_held(set));
@@ -151,12 +196,16 @@ fn predicted(data: &Data, of: &Fit, noise: Noise, fold: usize, is_far: bool) -> 
     };
     let (tangents, _) = Tangents::new(data, &pixels, &pieces, &[]);
     let sets = data.sets().into_par_iter().enumerate().filter(|(number, _)| is_held(*number));
-    sets.filter_map(|(number, (take, set))| Some((number, seen(data, &tangents, noise, take, set)?)))
-        .collect()
+    let of_set = |(number, (take, set))| {
+        let seen = seen(data, &tangents, model, take, set)?;
+        Some((number, Seen { fold, ..seen }))
+    };
+    sets.filter_map(of_set).collect()
 }
 
 /// What a set shows; nothing where it was left out.
-fn seen(data: &Data, tangents: &Tangents, noise: Noise, number: usize, set: usize) -> Option<Seen> {
+fn seen(data: &Data, tangents: &Tangents, model: Model, number: usize, set: usize) -> Option<Seen> {
+    let noise = model.noise;
     let take = &data.takes[number];
     let mut seen = Seen { take: number, ..Seen::default() };
     let mut phasors = vec![(Complex64::default(), Complex64::default()); data.pixels()];
@@ -166,6 +215,11 @@ fn seen(data: &Data, tangents: &Tangents, noise: Noise, number: usize, set: usiz
         let (roots, residuals) = whiten(data, number, index, &base, noise);
         let measured = &take.signal_dn[index * data.pixels()..(index + 1) * data.pixels()];
         seen.unlikely += noise.ln_variance(measured, &roots);
+        if model.has_jitters() {
+            let frame = tangents.frame(number, index);
+            let velocity_m_s = take.moments[index].velocity_m_s;
+            seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, velocity_m_s));
+        }
         let weight = weight(take, frame);
         let (mut sum_dn, mut samples) = (0.0, 0);
         for pixel in (0..data.pixels()).filter(|&pixel| roots[pixel] > 0.0) {
@@ -228,6 +282,10 @@ mod tests {
     const GEOMETRY: Geometry = Geometry { width: 24, height: 18 };
     const PIXELS: usize = GEOMETRY.width * GEOMETRY.height;
 
+    fn model(fit: &Fit, noise: crate::diagnose::gram::Noise) -> Model<'_> {
+        Model { fit, noise, jitters: [false; 2] }
+    }
+
     /// A set of 64 frames at each of three distances, with `effects` in so many of the upper pixels.
     fn few_sets(effects: Vec<Active>, pixels: usize) -> Data {
         let camera = practice_camera(GEOMETRY);
@@ -277,7 +335,7 @@ mod tests {
         assert!(data.sets().len() < FOLDS * GROUP);
         let noise = stated_noise(&data);
         let baseline = unfitted(&data, noise);
-        let held = held_out(&data, &baseline, &baseline, noise);
+        let held = held_out(&data, model(&baseline, noise), model(&baseline, noise));
         // Amplitude, phase, ambient light, and, where the target moves, constant light.
         let numbers = |pixel| if data.tells_constant(pixel) { 4.0 } else { 3.0 };
         let p: f64 = (0..data.pixels()).map(numbers).sum();
@@ -289,6 +347,30 @@ mod tests {
         let (seen, seen_deviation) = (n - p, (2.0 * (n - p)).sqrt());
         assert!(mean - 4.0 * deviation > seen + 4.0 * seen_deviation, "what was seen would pass: {seen}");
         assert_eq!((held.sets, held.z), (3, 0.0));
+    }
+
+    /// With errors that frames share the residuals' covariance is that of their noise and of these errors: measured by it, a campaign with jitter
+    /// is as far off as one without. The errors are as strong as other parts show them.
+    #[test]
+    fn frames_that_jitter_are_as_far_off_as_jitter_makes_them() {
+        let data = few_sets(vec![injection("clock_jitter:sigma_rad=0.03").unwrap()], PIXELS);
+        let noise = stated_noise(&data);
+        let baseline = unfitted(&data, noise);
+        let before = model(&baseline, noise);
+        let held = held_out(&data, before, Model { jitters: [true, false], ..before });
+        let still = few_sets(Vec::new(), 0);
+        let baseline = unfitted(&still, noise);
+        let before = model(&baseline, noise);
+        let of_noise = held_out(&still, before, before).before.chi2_per_dof;
+        let n = (3 * 64 * PIXELS) as f64;
+        // Both have the variance 2 a sample, and 28 for each of some three numbers a pixel.
+        let deviation = (2.0 * (2.0 + 28.0 * 3.0 / 64.0) / n).sqrt();
+        assert!(held.before.chi2_per_dof > of_noise + 10.0 * deviation, "{held:?}, {of_noise}");
+        assert!((held.after.chi2_per_dof - of_noise).abs() < 4.0 * deviation, "{held:?}, {of_noise}");
+        assert!(held.z > 3.0, "{held:?}");
+        // Where there is none, none is found to matter.
+        let none = held_out(&still, before, Model { jitters: [true, true], ..before });
+        assert!((none.after.chi2_per_dof - of_noise).abs() < 0.1 * deviation && none.z < 2.0, "{none:?}");
     }
 
     /// An effect in the upper half alone is not known from the lower half, where it is taken to be then: residuals are those of the effect
@@ -305,13 +387,14 @@ mod tests {
         let chi2 = |agreement: Agreement| agreement.chi2_per_dof * (3 * 64 * PIXELS) as f64;
         let left_out = |data: &Data| {
             let baseline = unfitted(data, noise);
-            chi2(held_out(data, &baseline, &baseline, noise).before)
+            chi2(held_out(data, model(&baseline, noise), model(&baseline, noise)).before)
         };
         let whole = left_out(&everywhere) - left_out(&clean);
         let baseline = unfitted(&upper, noise);
         let piece = Piece { effect, values: effect.off(), free: vec![0], takes: vec![0], finite: false };
         let after = fit(&upper, Some(&baseline), vec![piece], noise, &|_| true);
-        let both = chi2(held_out(&upper, &baseline, &after, noise).after) - left_out(&clean);
+        let both =
+            chi2(held_out(&upper, model(&baseline, noise), model(&after, noise)).after) - left_out(&clean);
         let deviation = 4.0 * (whole / 2.0).sqrt();
         assert!(whole - 4.0 * deviation > whole / 2.0, "a quarter would not be told from {whole}");
         assert!((both - whole).abs() < 4.0 * deviation, "{both}, not {whole} +- {deviation}");

@@ -2,6 +2,7 @@
 //! one shows, and with the velocity the second one grows: so both can be told although in a moving frame they are nearly the same.
 
 use super::clusters::{ENDS, PHASE, POSITION};
+use super::columns;
 use super::random::Strength;
 use nalgebra::{Matrix2, Vector2};
 
@@ -33,6 +34,8 @@ pub struct Both {
 
 /// Standard deviations that are looked at, beside none.
 const STEPS: usize = 33;
+/// Parts of a step that are looked at beside the best one.
+const PARTS: i32 = 6;
 /// A frame counts at most so much (nats) for a second error.
 const MOST_NATS: f64 = 4.0;
 
@@ -42,14 +45,35 @@ fn steps((low, high): (f64, f64)) -> impl Iterator<Item = f64> + Clone {
 }
 
 impl Frame {
-    /// Evidence for errors of these standard deviations, nats.
-    fn ln_bayes(&self, phase_rad: f64, time_s: f64) -> f64 {
+    /// What the residuals of a frame, whitened with the `roots` of their weights, say of both at this velocity.
+    pub fn seen(frame: &columns::Frame, roots: &[f64], residuals: &[f64], velocity_m_s: f64) -> Self {
+        let mut seen = Self { phase: (0.0, 0.0), time: (0.0, 0.0), shared: 0.0 };
+        let tangents = frame.own[1].iter().zip(&frame.position);
+        for ((root, residual), (phase, position)) in roots.iter().zip(residuals).zip(tangents) {
+            let (phase, time) = (root * phase, root * velocity_m_s * position);
+            seen.phase.0 += phase * residual;
+            seen.phase.1 += phase * phase;
+            seen.time.0 += time * residual;
+            seen.time.1 += time * time;
+            seen.shared += phase * time;
+        }
+        seen
+    }
+
+    /// Of chi squared what errors of these standard deviations take, and by what factor they raise the noise's determinant, its logarithm.
+    pub fn explained(&self, phase_rad: f64, time_s: f64) -> (f64, f64) {
         let (a, b) = (phase_rad * phase_rad, time_s * time_s);
         let ((s, k), (t, l), m) = (self.phase, self.time, self.shared);
         // Sylvester: det(1 + V K), and the scores by the inverse of K + 1 / V, without dividing by a variance of 0.
         let determinant = (1.0 + a * k) * (1.0 + b * l) - a * b * m * m;
         let square = a * s * s * (1.0 + b * l) + b * t * t * (1.0 + a * k) - 2.0 * a * b * m * s * t;
-        0.5 * (square / determinant - determinant.ln())
+        (square / determinant, determinant.ln())
+    }
+
+    /// Evidence for errors of these standard deviations, nats.
+    fn ln_bayes(&self, phase_rad: f64, time_s: f64) -> f64 {
+        let (square, determinant) = self.explained(phase_rad, time_s);
+        0.5 * (square - determinant)
     }
 }
 
@@ -63,6 +87,28 @@ impl Jitters {
     pub fn and(mut self, other: Self) -> Self {
         self.frames.extend(other.frames);
         self
+    }
+
+    /// Standard deviations of the phase, rad, and of the time, s, at which the frames are likeliest; 0 for what does not `exist`.
+    pub fn likeliest(&self, exist: [bool; 2]) -> (f64, f64) {
+        let sum = |at: (f64, f64)| self.frames.iter().map(|frame| frame.ln_bayes(at.0, at.1)).sum::<f64>();
+        let kinds = [PHASE, POSITION];
+        let ratio = kinds.map(|mode| (ENDS[mode].1 / ENDS[mode].0).powf(1.0 / (STEPS - 1) as f64));
+        let coarse = |kind: usize| -> Vec<f64> {
+            if exist[kind] { steps(ENDS[kinds[kind]]).collect() } else { vec![0.0] }
+        };
+        // Between the steps beside it, in as many parts.
+        let fine = |kind: usize, at: f64| -> Vec<f64> {
+            let part = |part: i32| at * ratio[kind].powf(f64::from(part) / f64::from(PARTS));
+            if at > 0.0 { (-PARTS..=PARTS).map(part).collect() } else { vec![0.0] }
+        };
+        let greatest = |phases: Vec<f64>, times: Vec<f64>| {
+            let all = phases.iter().flat_map(|&phase| times.iter().map(move |&time| (phase, time)));
+            let of = all.map(|at| (at, sum(at)));
+            of.max_by(|a, b| a.1.total_cmp(&b.1)).map_or((0.0, 0.0), |best| best.0)
+        };
+        let near = greatest(coarse(0), coarse(1));
+        greatest(fine(0, near.0), fine(1, near.1))
     }
 
     /// Both errors as the frames show them best together, and what each of them says beside the best of the other one alone; nothing where no frame
@@ -148,6 +194,18 @@ mod tests {
         assert!(phase > 20.0 && time < 4.0, "{phase} {time}");
         let [phase, time] = frames(0.0, 1e-3).both().unwrap().beside;
         assert!(phase < 4.0 && time > 20.0, "{phase} {time}");
+    }
+
+    #[test]
+    fn the_likeliest_strengths_are_those_of_the_errors() {
+        let jitters = frames(1e-3, 2e-3);
+        let (phase_rad, time_s) = jitters.likeliest([true, true]);
+        // Known to some 3 and 5 per cent, and looked at in steps of 4.
+        assert!((phase_rad / 1e-3 - 1.0).abs() < 0.12, "{phase_rad}");
+        assert!((time_s / 2e-3 - 1.0).abs() < 0.15, "{time_s}");
+        assert_eq!(jitters.likeliest([true, false]).1, 0.0);
+        assert_eq!(jitters.likeliest([false, false]), (0.0, 0.0));
+        assert_eq!(frames(0.0, 0.0).likeliest([false, true]).0, 0.0);
     }
 
     /// Against the definition, by integrals over both errors.

@@ -4,14 +4,15 @@ use super::clusters::Level;
 use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
+use super::held_out::Model;
 use super::lines::{FLICKER, FLICKER_HZ};
 use super::location::{Located, Location, locate};
 use super::noise::beyond;
 use super::pass::{DISBELIEF, RIVAL_NATS, THRESHOLD};
 use super::pieces::{OF_OTHER_PIXELS, Piece, tolerance};
 use super::random::{
-    self, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation, is_noisier,
-    random_effect, two_jitters, words,
+    self, JITTERS, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation,
+    is_noisier, random_effect, two_jitters, words,
 };
 use super::search::{Found, Named, Search};
 use super::source::{Shown, is_one, shown};
@@ -25,6 +26,8 @@ const OCCAM_NATS: f64 = 10.0;
 const FREEDOM_NATS: (f64, f64) = (25.0, 5.0);
 /// What that of each number costs at least, beside random errors.
 const LEAST_FREEDOM_NATS: f64 = 3.0;
+/// Noise in proportion to the signal, by the registry's name.
+const EXCESS_NOISE: &str = "excess_noise";
 /// How often the noise is corrected.
 const NOISE_STEPS: usize = 2;
 
@@ -87,6 +90,22 @@ pub struct Judgement {
     pub shared_noise: Option<String>,
 }
 
+impl Judgement {
+    /// The simulation that the camera describes.
+    pub fn without(&self) -> Model<'_> {
+        let excess = self.random.iter().find(|(name, _)| *name == EXCESS_NOISE);
+        let square = excess.map_or(0.0, |(_, strength)| strength.value.powi(2));
+        let noise = Noise { square: (self.noise.square - square).max(0.0), ..self.noise };
+        Model { fit: &self.found.baseline, noise, jitters: [false; 2] }
+    }
+
+    /// The model with everything that is asserted.
+    pub fn with(&self) -> Model<'_> {
+        let jitters = JITTERS.map(|jitter| self.random.iter().any(|(name, _)| *name == jitter));
+        Model { fit: &self.fit, noise: self.noise, jitters }
+    }
+}
+
 /// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut noise = stated;
@@ -144,7 +163,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // Else it is the noise that was stated, and more of it.
     let value = (noise.square - stated.square).max(0.0).sqrt();
     let strength = Strength { value, sigma: if value > 0.0 { 0.5 * square_sigma / value } else { 0.0 } };
-    let excess = RandomEffect { name: "excess_noise", strength, ln_bayes: in_proportion, inflation: 1.0 };
+    let excess = RandomEffect { name: EXCESS_NOISE, strength, ln_bayes: in_proportion, inflation: 1.0 };
     let excess = (random.is_none() && in_proportion > 0.0).then_some(excess);
     let is_left = |place: &&Place| {
         random.is_none_or(|random| {
@@ -168,7 +187,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     for &RandomEffect { name, strength, ln_bayes, .. } in &at_random {
         strengths.push((name, strength));
         named.push(Named { name, ln_bayes, score: (2.0 * ln_bayes, 1), rivals: Vec::new() });
-        if name == "excess_noise" {
+        if name == EXCESS_NOISE {
             let shape = format!("noise in proportion to the signal, {:.2} %", 100.0 * strength.value);
             let chi2 = (2.0 * ln_bayes, 1);
             places.push(Place {

@@ -87,7 +87,7 @@ pub struct RandomEffect {
 }
 
 /// Random errors of frames that the registry has: of the phase, and of the time.
-const JITTERS: [&str; 2] = ["clock_jitter", "timing_jitter_of_frames"];
+pub const JITTERS: [&str; 2] = ["clock_jitter", "timing_jitter_of_frames"];
 /// Of the evidence for a random effect, a second one beside it must have so much, and so many nats besides.
 const SECOND: (f64, f64) = (0.005, 5.0);
 

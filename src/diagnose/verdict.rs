@@ -171,7 +171,7 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
         None => (data, baseline),
     };
     let judgement = judge(data, baseline, noise);
-    let held_out = held_out(data, &judgement.found.baseline, &judgement.fit, judgement.noise);
+    let held_out = held_out(data, judgement.without(), judgement.with());
     let mut answer = answer(data, &judgement, &held_out);
     answer.provenance["sets_left_out"] = json!(left_out);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
