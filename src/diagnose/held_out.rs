@@ -9,7 +9,6 @@ use super::data::{Data, Take};
 use super::fit::{Fit, fit, improved, settled};
 use super::gram::{Noise, whiten};
 use super::jitters::{self, Jitters};
-
 use crate::spec::SCHEMES;
 use crate::units::phase_rad;
 use num_complex::Complex64;
@@ -84,7 +83,7 @@ pub struct Model<'a> {
 
 impl Model<'_> {
     fn has_jitters(&self) -> bool {
-        self.jitters.contains(&true)
+        self.jitters != [false; 2]
     }
 }
 
@@ -268,13 +267,12 @@ fn weight(take: &Take, frame: usize) -> Complex64 {
 mod tests {
     use super::*;
     use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
-    use crate::diagnose::fit::{Fit, fit, fit_until, unfitted};
+    use crate::diagnose::fit::{fit_until, unfitted};
     use crate::diagnose::pieces::Piece;
     use crate::diagnose::stated_noise;
     use crate::frames::{Geometry, RawSets};
     use crate::physics::{Active, FREQUENCY_HZ, Stage};
     use std::path::Path;
-    use std::sync::Arc;
 
     const SEED: u64 = 3;
     const HARMONICS: &str = "harmonics";
@@ -282,7 +280,7 @@ mod tests {
     const GEOMETRY: Geometry = Geometry { width: 24, height: 18 };
     const PIXELS: usize = GEOMETRY.width * GEOMETRY.height;
 
-    fn model(fit: &Fit, noise: crate::diagnose::gram::Noise) -> Model<'_> {
+    fn model(fit: &Fit, noise: Noise) -> Model<'_> {
         Model { fit, noise, jitters: [false; 2] }
     }
 
@@ -369,7 +367,7 @@ mod tests {
         assert!((held.after.chi2_per_dof - of_noise).abs() < 4.0 * deviation, "{held:?}, {of_noise}");
         assert!(held.z > 3.0, "{held:?}");
         // Where there is none, none is found to matter.
-        let none = held_out(&still, before, Model { jitters: [true, true], ..before });
+        let none = held_out(&still, before, Model { jitters: [true; 2], ..before });
         assert!((none.after.chi2_per_dof - of_noise).abs() < 0.1 * deviation && none.z < 2.0, "{none:?}");
     }
 
