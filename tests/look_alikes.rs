@@ -145,7 +145,7 @@ fn a_weak_pulse_in_one_frame_is_no_other_gain() {
     assert_eq!(verdict["located"][0]["coordinate"], "frame", "{verdict:#}");
 }
 
-/// Names for these effects in a campaign of all recordings.
+/// What is said of these effects in a campaign of all recordings.
 fn verdict_with(effects: &[&str]) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let all = "four-sweep,four-rail,four-motion,wdft-sweep,wdft-rail,wdft-motion";

@@ -145,7 +145,7 @@ fn noise_in_proportion_to_the_signal_is_named() {
     assert_eq!(names(&verdict), ["excess_noise"], "{verdict:#}");
     let relative = verdict["effects"][0]["parameters"][0]["value"].as_f64().unwrap();
     assert!((relative - 0.02).abs() < 0.002, "{relative}");
-    // The noise that was stated does not make what was not seen likelier.
+    // Sets that were not seen are likelier with it.
     let z = verdict["held_out"]["z"].as_f64().unwrap();
     assert!(z > 5.0, "{z}");
 }

@@ -26,6 +26,13 @@ struct White {
     score: DVector<f64>,
 }
 
+impl White {
+    /// What its directions, of unit information, have in common with another one's.
+    fn shared_with(&self, other: &Self) -> DMatrix<f64> {
+        self.basis.tr_mul(&other.informed)
+    }
+}
+
 /// Score and information of all blocks.
 pub struct Evidence<'a> {
     /// Columns in all.
@@ -221,7 +228,7 @@ impl<'a> Evidence<'a> {
             score.rows_mut(row, width).copy_from(&part.score);
             let mut column = 0;
             for other in &parts[..number] {
-                let cross = part.basis.tr_mul(&other.informed);
+                let cross = part.shared_with(other);
                 inner.view_mut((row, column), (width, other.score.len())).copy_from(&cross);
                 inner.view_mut((column, row), (other.score.len(), width)).copy_from(&cross.transpose());
                 column += other.score.len();
@@ -269,7 +276,7 @@ impl<'a> Evidence<'a> {
     fn contains(&self, one: usize, other: usize) -> bool {
         let (Some(one), Some(other)) = (&self.white[one], &self.white[other]) else { return false };
         let (few, many) = if one.score.len() <= other.score.len() { (one, other) } else { (other, one) };
-        let cross = few.basis.tr_mul(&many.informed);
+        let cross = few.shared_with(many);
         let shared = (&cross * cross.transpose()).symmetric_eigenvalues();
         shared.iter().all(|&share| share > 1.0 - OWN)
     }

@@ -70,9 +70,9 @@ struct Seen {
     distance_m: f64,
 }
 
-/// A model: what is fitted, what noise its samples have, and which of the jitters of a frame's phase and of its time.
+/// What predicts: what is fitted, what noise its samples have, and which of the jitters of a frame's phase and of its time.
 #[derive(Debug, Clone, Copy)]
-pub struct Model<'a> {
+pub struct Predictor<'a> {
     /// Effects and pixels.
     pub fit: &'a Fit,
     /// Noise of single samples.
@@ -81,27 +81,28 @@ pub struct Model<'a> {
     pub jitters: [bool; 2],
 }
 
-impl Model<'_> {
+impl Predictor<'_> {
     fn has_jitters(&self) -> bool {
         self.jitters != [false; 2]
     }
 }
 
 /// Predicts every set of `data` by `before` and by `after`, neither of which has seen it.
-pub fn held_out(data: &Data, before: Model, after: Model) -> HeldOut {
+pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     let is_few = data.sets().len() < FOLDS * GROUP;
-    let predict = |model: Model| -> Vec<Seen> {
+    let predict = |by: Predictor| -> Vec<Seen> {
         let parts = (0..if is_few { PARTS } else { FOLDS }).flat_map(|part| match is_few {
-            true => predicted_frames(data, model, part),
-            false => predicted(data, model, part, before.fit.is_far()),
+            true => predicted_frames(data, by, part),
+            false => predicted(data, by, part, before.fit.is_far()),
         });
         // In the order of the sets.
-        let seen = parts.collect::<BTreeMap<usize, Seen>>().into_values().collect();
-        if model.has_jitters() { with_jitters(seen, model.jitters) } else { seen }
+        parts.collect::<BTreeMap<usize, Seen>>().into_values().collect()
     };
-    let old = predict(before);
-    let is_other = !after.fit.pieces.is_empty() || after.has_jitters() || after.noise != before.noise;
-    let new = if is_other { predict(after) } else { old.clone() };
+    let new = predict(after);
+    // Jitter predicts no sample.
+    let is_same = after.fit.pieces.is_empty() && after.noise == before.noise;
+    let old = if is_same { new.clone() } else { predict(before) };
+    let new = with_jitters(new, after.jitters);
     let differences: Vec<f64> = old.iter().zip(&new).map(|(old, new)| old.unlikely - new.unlikely).collect();
     let count = differences.len().max(1) as f64;
     let mean = differences.iter().sum::<f64>() / count;
@@ -162,8 +163,8 @@ const PARTS: usize = 4;
 const SETTLING: usize = 3;
 
 /// A half of the image in every other frame: `(a number of its own for each set, what it shows)`.
-fn predicted_frames(data: &Data, model: Model, part: usize) -> Vec<(usize, Seen)> {
-    let Model { fit: of, noise, .. } = model;
+fn predicted_frames(data: &Data, by: Predictor, part: usize) -> Vec<(usize, Seen)> {
+    let Predictor { fit: of, noise, .. } = by;
     let (half, odd) = (part / 2, part % 2);
     let half_of = |pixel: usize| 2 * pixel / data.pixels().max(1);
     let elsewhere = data.only(|_, pixel| half_of(pixel) != half);
@@ -175,7 +176,7 @@ fn predicted_frames(data: &Data, model: Model, part: usize) -> Vec<(usize, Seen)
     let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
     let sets = data.sets().into_iter().enumerate();
     let of_set = |(number, (take, set))| {
-        let seen = seen(&held, &tangents, model, take, set)?;
+        let seen = seen(&held, &tangents, by, take, set)?;
         // Half of the frames have no distance.
         Some((PARTS * number + part, Seen { distance_m: f64::NAN, fold: part, ..seen }))
     };
@@ -184,8 +185,8 @@ fn predicted_frames(data: &Data, model: Model, part: usize) -> Vec<(usize, Seen)
 
 /// The sets of a fold, by number, seen by a model that was fitted to the others. For the pixels' own numbers one step from what was fitted to all is
 /// enough, unless the mismatch `is_far` above the noise.
-fn predicted(data: &Data, model: Model, fold: usize, is_far: bool) -> Vec<(usize, Seen)> {
-    let Model { fit: of, noise, .. } = model;
+fn predicted(data: &Data, by: Predictor, fold: usize, is_far: bool) -> Vec<(usize, Seen)> {
+    let Predictor { fit: of, noise, .. } = by;
     let is_held = |set: usize| set / GROUP % FOLDS == fold;
     let (pixels, pieces) = if is_far || !of.pieces.is_empty() {
         let fit = fit(data, Some(of), of.pieces.clone(), noise, &|set| !is_held(set));
@@ -196,15 +197,15 @@ fn predicted(data: &Data, model: Model, fold: usize, is_far: bool) -> Vec<(usize
     let (tangents, _) = Tangents::new(data, &pixels, &pieces, &[]);
     let sets = data.sets().into_par_iter().enumerate().filter(|(number, _)| is_held(*number));
     let of_set = |(number, (take, set))| {
-        let seen = seen(data, &tangents, model, take, set)?;
+        let seen = seen(data, &tangents, by, take, set)?;
         Some((number, Seen { fold, ..seen }))
     };
     sets.filter_map(of_set).collect()
 }
 
 /// What a set shows; nothing where it was left out.
-fn seen(data: &Data, tangents: &Tangents, model: Model, number: usize, set: usize) -> Option<Seen> {
-    let noise = model.noise;
+fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set: usize) -> Option<Seen> {
+    let noise = by.noise;
     let take = &data.takes[number];
     let mut seen = Seen { take: number, ..Seen::default() };
     let mut phasors = vec![(Complex64::default(), Complex64::default()); data.pixels()];
@@ -214,7 +215,7 @@ fn seen(data: &Data, tangents: &Tangents, model: Model, number: usize, set: usiz
         let (roots, residuals) = whiten(data, number, index, &base, noise);
         let measured = &take.signal_dn[index * data.pixels()..(index + 1) * data.pixels()];
         seen.unlikely += noise.ln_variance(measured, &roots);
-        if model.has_jitters() {
+        if by.has_jitters() {
             let frame = tangents.frame(number, index);
             let velocity_m_s = take.moments[index].velocity_m_s;
             seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, velocity_m_s));
@@ -280,8 +281,8 @@ mod tests {
     const GEOMETRY: Geometry = Geometry { width: 24, height: 18 };
     const PIXELS: usize = GEOMETRY.width * GEOMETRY.height;
 
-    fn model(fit: &Fit, noise: Noise) -> Model<'_> {
-        Model { fit, noise, jitters: [false; 2] }
+    fn alone(fit: &Fit, noise: Noise) -> Predictor<'_> {
+        Predictor { fit, noise, jitters: [false; 2] }
     }
 
     /// A set of 64 frames at each of three distances, with `effects` in so many of the upper pixels.
@@ -333,7 +334,7 @@ mod tests {
         assert!(data.sets().len() < FOLDS * GROUP);
         let noise = stated_noise(&data);
         let baseline = unfitted(&data, noise);
-        let held = held_out(&data, model(&baseline, noise), model(&baseline, noise));
+        let held = held_out(&data, alone(&baseline, noise), alone(&baseline, noise));
         // Amplitude, phase, ambient light, and, where the target moves, constant light.
         let numbers = |pixel| if data.tells_constant(pixel) { 4.0 } else { 3.0 };
         let p: f64 = (0..data.pixels()).map(numbers).sum();
@@ -354,11 +355,11 @@ mod tests {
         let data = few_sets(vec![injection("clock_jitter:sigma_rad=0.03").unwrap()], PIXELS);
         let noise = stated_noise(&data);
         let baseline = unfitted(&data, noise);
-        let before = model(&baseline, noise);
-        let held = held_out(&data, before, Model { jitters: [true, false], ..before });
+        let before = alone(&baseline, noise);
+        let held = held_out(&data, before, Predictor { jitters: [true, false], ..before });
         let still = few_sets(Vec::new(), 0);
         let baseline = unfitted(&still, noise);
-        let before = model(&baseline, noise);
+        let before = alone(&baseline, noise);
         let of_noise = held_out(&still, before, before).before.chi2_per_dof;
         let n = (3 * 64 * PIXELS) as f64;
         // Both have the variance 2 a sample, and 28 for each of some three numbers a pixel.
@@ -367,7 +368,7 @@ mod tests {
         assert!((held.after.chi2_per_dof - of_noise).abs() < 4.0 * deviation, "{held:?}, {of_noise}");
         assert!(held.z > 3.0, "{held:?}");
         // Where there is none, none is found to matter.
-        let none = held_out(&still, before, Model { jitters: [true; 2], ..before });
+        let none = held_out(&still, before, Predictor { jitters: [true; 2], ..before });
         assert!((none.after.chi2_per_dof - of_noise).abs() < 0.1 * deviation && none.z < 2.0, "{none:?}");
     }
 
@@ -385,14 +386,14 @@ mod tests {
         let chi2 = |agreement: Agreement| agreement.chi2_per_dof * (3 * 64 * PIXELS) as f64;
         let left_out = |data: &Data| {
             let baseline = unfitted(data, noise);
-            chi2(held_out(data, model(&baseline, noise), model(&baseline, noise)).before)
+            chi2(held_out(data, alone(&baseline, noise), alone(&baseline, noise)).before)
         };
         let whole = left_out(&everywhere) - left_out(&clean);
         let baseline = unfitted(&upper, noise);
         let piece = Piece { effect, values: effect.off(), free: vec![0], takes: vec![0], finite: false };
         let after = fit(&upper, Some(&baseline), vec![piece], noise, &|_| true);
         let both =
-            chi2(held_out(&upper, model(&baseline, noise), model(&after, noise)).after) - left_out(&clean);
+            chi2(held_out(&upper, alone(&baseline, noise), alone(&after, noise)).after) - left_out(&clean);
         let deviation = 4.0 * (whole / 2.0).sqrt();
         assert!(whole - 4.0 * deviation > whole / 2.0, "a quarter would not be told from {whole}");
         assert!((both - whole).abs() < 4.0 * deviation, "{both}, not {whole} +- {deviation}");

@@ -32,6 +32,8 @@ pub struct Both {
     pub beside: [f64; 2],
 }
 
+/// Of the clusters' modes, the phase and the time of a frame.
+const KINDS: [usize; 2] = [PHASE, POSITION];
 /// Standard deviations that are looked at, beside none.
 const STEPS: usize = 33;
 /// Parts of a step that are looked at beside the best one.
@@ -39,9 +41,15 @@ const PARTS: i32 = 6;
 /// A frame counts at most so much (nats) for a second error.
 const MOST_NATS: f64 = 4.0;
 
-fn steps((low, high): (f64, f64)) -> impl Iterator<Item = f64> + Clone {
+fn steps((low, high): (f64, f64)) -> impl Iterator<Item = f64> {
     let of = move |step: usize| low * (high / low).powf(step as f64 / (STEPS - 1) as f64);
     std::iter::once(0.0).chain((0..STEPS).map(of))
+}
+
+/// From one of the steps of a kind to the next, in logarithms.
+fn ln_step(kind: usize) -> f64 {
+    let (low, high) = ENDS[KINDS[kind]];
+    (high / low).ln() / (STEPS - 1) as f64
 }
 
 impl Frame {
@@ -89,26 +97,34 @@ impl Jitters {
         self
     }
 
+    /// Evidence of all frames for errors of these standard deviations, nats.
+    fn sum(&self, (phase_rad, time_s): (f64, f64)) -> f64 {
+        self.frames.iter().map(|frame| frame.ln_bayes(phase_rad, time_s)).sum()
+    }
+
+    /// Of these standard deviations of the phase, and of the time, those with the greatest evidence.
+    fn greatest(&self, phases: &[f64], times: &[f64]) -> (f64, f64) {
+        let all = phases.iter().flat_map(|&phase_rad| times.iter().map(move |&time_s| (phase_rad, time_s)));
+        let of = all.map(|at| (at, self.sum(at)));
+        of.max_by(|a, b| a.1.total_cmp(&b.1)).map_or((0.0, 0.0), |best| best.0)
+    }
+
+    /// The same of all steps; 0 for what does not `exist`.
+    fn greatest_step(&self, exist: [bool; 2]) -> (f64, f64) {
+        let [phases, times] =
+            [0, 1].map(|kind| if exist[kind] { steps(ENDS[KINDS[kind]]).collect() } else { vec![0.0] });
+        self.greatest(&phases, &times)
+    }
+
     /// Standard deviations of the phase, rad, and of the time, s, at which the frames are likeliest; 0 for what does not `exist`.
     pub fn likeliest(&self, exist: [bool; 2]) -> (f64, f64) {
-        let sum = |at: (f64, f64)| self.frames.iter().map(|frame| frame.ln_bayes(at.0, at.1)).sum::<f64>();
-        let kinds = [PHASE, POSITION];
-        let ratio = kinds.map(|mode| (ENDS[mode].1 / ENDS[mode].0).powf(1.0 / (STEPS - 1) as f64));
-        let coarse = |kind: usize| -> Vec<f64> {
-            if exist[kind] { steps(ENDS[kinds[kind]]).collect() } else { vec![0.0] }
-        };
+        let near = self.greatest_step(exist);
         // Between the steps beside it, in as many parts.
         let fine = |kind: usize, at: f64| -> Vec<f64> {
-            let part = |part: i32| at * ratio[kind].powf(f64::from(part) / f64::from(PARTS));
+            let part = |part: i32| at * (ln_step(kind) * f64::from(part) / f64::from(PARTS)).exp();
             if at > 0.0 { (-PARTS..=PARTS).map(part).collect() } else { vec![0.0] }
         };
-        let greatest = |phases: Vec<f64>, times: Vec<f64>| {
-            let all = phases.iter().flat_map(|&phase| times.iter().map(move |&time| (phase, time)));
-            let of = all.map(|at| (at, sum(at)));
-            of.max_by(|a, b| a.1.total_cmp(&b.1)).map_or((0.0, 0.0), |best| best.0)
-        };
-        let near = greatest(coarse(0), coarse(1));
-        greatest(fine(0, near.0), fine(1, near.1))
+        self.greatest(&fine(0, near.0), &fine(1, near.1))
     }
 
     /// Both errors as the frames show them best together, and what each of them says beside the best of the other one alone; nothing where no frame
@@ -117,16 +133,8 @@ impl Jitters {
         if self.frames.iter().all(|frame| frame.time.1 <= 0.0) {
             return None;
         }
-        let sum = |at: (f64, f64)| self.frames.iter().map(|frame| frame.ln_bayes(at.0, at.1)).sum::<f64>();
-        let greatest = |all: Vec<(f64, f64)>| {
-            let of = all.into_iter().map(|at| (at, sum(at)));
-            of.max_by(|a, b| a.1.total_cmp(&b.1)).map_or((0.0, 0.0), |best| best.0)
-        };
-        let (phases, times) = (steps(ENDS[PHASE]), steps(ENDS[POSITION]));
-        let phase_alone = greatest(phases.clone().map(|phase_rad| (phase_rad, 0.0)).collect());
-        let time_alone = greatest(times.clone().map(|time_s| (0.0, time_s)).collect());
-        let all = phases.flat_map(|phase_rad| times.clone().map(move |time_s| (phase_rad, time_s)));
-        let together = greatest(all.collect());
+        let [phase_alone, time_alone, together] =
+            [[true, false], [false, true], [true, true]].map(|exist| self.greatest_step(exist));
         let beyond = |alone: (f64, f64)| {
             let more = |frame: &Frame| {
                 let more = frame.ln_bayes(together.0, together.1) - frame.ln_bayes(alone.0, alone.1);
@@ -135,28 +143,29 @@ impl Jitters {
             self.frames.iter().map(more).sum::<f64>()
         };
         let beside = [beyond(time_alone), beyond(phase_alone)];
-        Some(Both { strengths: strengths(together, &sum), beside })
+        Some(Both { strengths: self.strengths(together), beside })
     }
-}
 
-/// Where the evidence `sum` is greatest near the step `at`, and how exactly: by the parabola through its neighbours, over the logarithms.
-fn strengths(at: (f64, f64), sum: &dyn Fn((f64, f64)) -> f64) -> [Strength; 2] {
-    let h = [PHASE, POSITION].map(|mode| (ENDS[mode].1 / ENDS[mode].0).ln() / (STEPS - 1) as f64);
-    let beside = |phase: f64, time: f64| sum((at.0 * (h[0] * phase).exp(), at.1 * (h[1] * time).exp()));
-    let middle = beside(0.0, 0.0);
-    let [right, left, up, down] =
-        [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(phase, time)| beside(phase, time));
-    let bend = 0.25 * (beside(1.0, 1.0) - beside(1.0, -1.0) - beside(-1.0, 1.0) + beside(-1.0, -1.0));
-    let curvature = -Matrix2::new(right + left - 2.0 * middle, bend, bend, up + down - 2.0 * middle);
-    let slope = 0.5 * Vector2::new(right - left, up - down);
-    // Where it is no hill, nothing is known but the step.
-    let inverse = curvature.cholesky().map(|root| root.inverse());
-    let known = inverse.map(|inverse| (inverse * slope, inverse.diagonal()));
-    let (move_by, variance) = known.unwrap_or((Vector2::zeros(), Vector2::new(1.0, 1.0)));
-    std::array::from_fn(|number| {
-        let value = [at.0, at.1][number] * (h[number] * move_by[number].clamp(-1.0, 1.0)).exp();
-        Strength { value, sigma: value * h[number] * variance[number].sqrt() }
-    })
+    /// Where the evidence is greatest near the step `at`, and how exactly: by the parabola through its neighbours, over the logarithms.
+    fn strengths(&self, at: (f64, f64)) -> [Strength; 2] {
+        let h = [0, 1].map(ln_step);
+        let beside =
+            |phase: f64, time: f64| self.sum((at.0 * (h[0] * phase).exp(), at.1 * (h[1] * time).exp()));
+        let middle = beside(0.0, 0.0);
+        let [right, left, up, down] =
+            [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(phase, time)| beside(phase, time));
+        let bend = 0.25 * (beside(1.0, 1.0) - beside(1.0, -1.0) - beside(-1.0, 1.0) + beside(-1.0, -1.0));
+        let curvature = -Matrix2::new(right + left - 2.0 * middle, bend, bend, up + down - 2.0 * middle);
+        let slope = 0.5 * Vector2::new(right - left, up - down);
+        // Where it is no hill, nothing is known but the step.
+        let inverse = curvature.cholesky().map(|root| root.inverse());
+        let known = inverse.map(|inverse| (inverse * slope, inverse.diagonal()));
+        let (move_by, variance) = known.unwrap_or((Vector2::zeros(), Vector2::new(1.0, 1.0)));
+        std::array::from_fn(|number| {
+            let value = [at.0, at.1][number] * (h[number] * move_by[number].clamp(-1.0, 1.0)).exp();
+            Strength { value, sigma: value * h[number] * variance[number].sqrt() }
+        })
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::clusters::Level;
 use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
-use super::held_out::Model;
+use super::held_out::Predictor;
 use super::lines::{FLICKER, FLICKER_HZ};
 use super::location::{Located, Location, locate};
 use super::noise::beyond;
@@ -92,17 +92,17 @@ pub struct Judgement {
 
 impl Judgement {
     /// The simulation that the camera describes.
-    pub fn without(&self) -> Model<'_> {
+    pub fn without(&self) -> Predictor<'_> {
         let excess = self.random.iter().find(|(name, _)| *name == EXCESS_NOISE);
         let square = excess.map_or(0.0, |(_, strength)| strength.value.powi(2));
         let noise = Noise { square: (self.noise.square - square).max(0.0), ..self.noise };
-        Model { fit: &self.found.baseline, noise, jitters: [false; 2] }
+        Predictor { fit: &self.found.baseline, noise, jitters: [false; 2] }
     }
 
     /// The model with everything that is asserted.
-    pub fn with(&self) -> Model<'_> {
+    pub fn with(&self) -> Predictor<'_> {
         let jitters = JITTERS.map(|jitter| self.random.iter().any(|(name, _)| *name == jitter));
-        Model { fit: &self.fit, noise: self.noise, jitters }
+        Predictor { fit: &self.fit, noise: self.noise, jitters }
     }
 }
 
