@@ -12,7 +12,7 @@ use super::pass::{DISBELIEF, RIVAL_NATS, THRESHOLD};
 use super::pieces::{OF_OTHER_PIXELS, Piece, tolerance};
 use super::random::{
     self, JITTERS, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation,
-    is_noisier, random_effect, two_jitters, words,
+    is_noisier, of_name, random_effect, two_jitters, words,
 };
 use super::search::{Found, Named, Search};
 use super::source::{Shown, is_one, shown};
@@ -22,10 +22,6 @@ use crate::physics::effects;
 const LOCATED_NATS: f64 = 4.0;
 /// What an effect's freedom costs, nats, where its evidence is taken from its fit.
 const OCCAM_NATS: f64 = 10.0;
-/// What the freedom of a few numbers costs at most, and what that of each of many does, nats.
-const FREEDOM_NATS: (f64, f64) = (25.0, 5.0);
-/// What that of each number costs at least, beside random errors.
-const LEAST_FREEDOM_NATS: f64 = 3.0;
 /// Noise in proportion to the signal, by the registry's name.
 const EXCESS_NOISE: &str = "excess_noise";
 /// How often the noise is corrected.
@@ -109,7 +105,7 @@ impl Judgement {
 /// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut noise = stated;
-    let (mut found, mut end) = searched(data, baseline, noise);
+    let (mut found, [mut baseline, mut end]) = searched(data, baseline, noise);
     let (mut in_proportion, mut square_sigma) = (0.0, 0.0);
     for _ in 0..NOISE_STEPS {
         if !is_noisier(data, &end) {
@@ -119,9 +115,8 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         noise = more.noise;
         in_proportion += more.in_proportion;
         square_sigma = f64::max(square_sigma, more.square_sigma);
-        (found, end) = searched(data, unfitted(data, noise), noise);
+        (found, [baseline, end]) = searched(data, unfitted(data, noise), noise);
     }
-    let baseline = if found.named.is_empty() { end.clone() } else { locate(data, &found.baseline, noise) };
     let mut places = places(data, &baseline);
     // What random errors let appear among the columns is not asserted.
     let inflation = inflation(data, &end);
@@ -133,11 +128,8 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         // Of two that were found together the evidence is that of both.
         let together = found.named.iter().filter(|other| other.ln_bayes == named.ln_bayes);
         let chi2: f64 = together.map(|named| named.score.0).sum();
-        // A fit may explain much more, or less, than the tangents from which the evidence is.
-        let most = FREEDOM_NATS.0.max(FREEDOM_NATS.1 * named.score.1 as f64);
-        let least = LEAST_FREEDOM_NATS * named.score.1 as f64;
-        let chi2 = chi2.max(2.0 * (named.ln_bayes + least)).min(2.0 * (named.ln_bayes + most));
-        deflated(inflation, named.ln_bayes, chi2) > THRESHOLD && (named.name != FLICKER || several.is_none())
+        let score = (chi2, named.score.1);
+        of_name(inflation, named.ln_bayes, score) > THRESHOLD && (named.name != FLICKER || several.is_none())
     };
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
     let dropped = named.len() < found.named.len();
@@ -326,19 +318,24 @@ fn asserted(data: &Data, found: &Found, named: &[Named], noise: Noise) -> Fit {
 }
 
 /// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not.
-fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, Location) {
-    let (found, without_trust) = Search::new(data, baseline, noise).with_trust();
-    let end = locate(data, &found.fit, noise);
+fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, [Location; 2]) {
+    let before = locate(data, &baseline, noise);
+    let inflation = random::noise(data, &before).map_or(1.0, |noise| noise.inflation);
+    let end = |found: &Found| match found.named[..] {
+        [] => before.clone(),
+        _ => locate(data, &found.fit, noise),
+    };
+    let (mut found, without_trust) = Search::new(data, baseline, noise, inflation).with_trust();
+    let mut after = end(&found);
     // Far from the baseline no form was trusted.
     let is_far = found.baseline.is_far_from(&found.fit);
-    match without_trust.filter(|_| !is_far && found.trusts_forms() && !places(data, &end).is_empty()) {
-        Some(search) => {
-            let found = search.without_trust();
-            let end = locate(data, &found.fit, noise);
-            (found, end)
-        }
-        None => (found, end),
+    if let Some(search) =
+        without_trust.filter(|_| !is_far && found.trusts_forms() && !places(data, &after).is_empty())
+    {
+        found = search.without_trust();
+        after = end(&found);
     }
+    (found, [before, after])
 }
 
 /// Coordinates that stand out, most significant first.

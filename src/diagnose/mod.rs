@@ -1,6 +1,7 @@
 //! Diagnosis: where recordings and simulation disagree, and which physics was left out.
 
 mod alias;
+mod alone;
 mod block;
 mod camera;
 mod clusters;
@@ -41,6 +42,7 @@ mod watchdog;
 mod waves;
 mod white;
 
+pub use alone::Alone;
 pub use camera::camera_with;
 pub use data::{Assumed, Data, Take};
 pub use fit::Fit;
@@ -49,7 +51,7 @@ pub use held_out::{Agreement, HeldOut};
 pub use judge::{Judgement, Place, Verdict};
 pub use library::library;
 pub use location::{Located, Location};
-pub use pass::{Alone, Detectable};
+pub use pass::Detectable;
 pub use profiles::{Point, Profile};
 pub use search::{Found, Named};
 pub use simpler::Simpler;

@@ -1,11 +1,13 @@
 //! One pass over all candidates beside what is fitted: their evidence, alone and in pairs, which leads, and what comes near.
 
+use super::alone::Alone;
 use super::columns::Tangents;
 use super::data::Data;
 use super::evidence::{Block, Evidence, Model, is_seen, powerful_rho};
 use super::fit::Fit;
 use super::gram::{Gram, Noise};
 use super::pieces::{Candidate, Piece, tolerance};
+use super::random::of_name;
 use super::simpler::Simpler;
 use std::collections::BTreeMap;
 
@@ -49,26 +51,6 @@ pub struct Detectable {
     pub value: f64,
 }
 
-/// A candidate by itself, in its best variant.
-#[derive(Debug, Clone, Copy)]
-pub struct Alone {
-    /// The effect.
-    pub name: &'static str,
-    /// Score statistic.
-    pub chi2: f64,
-    /// Its degrees of freedom.
-    pub degrees: usize,
-    /// Evidence, nats.
-    pub ln_bayes: f64,
-}
-
-impl Alone {
-    /// The one of this `name` among `all`.
-    pub fn of<'a>(all: &'a [Self], name: &str) -> Option<&'a Self> {
-        all.iter().find(|alone| alone.name == name)
-    }
-}
-
 /// What one pass says of all candidates.
 #[derive(Debug, Clone, Default)]
 pub struct Pass {
@@ -89,8 +71,9 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// All candidates at the fit `base`, with what it has fitted projected out.
-    pub fn of(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise) -> Self {
+    /// All candidates at the fit `base`, with what it has fitted projected out; beside noise that samples share, which raises the variance of what
+    /// columns say by `inflation`, no models but those that stand.
+    pub fn of(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, inflation: f64) -> Self {
         let (mut tried, mut blocks): (Vec<Piece>, Vec<Block>) = (Vec::new(), Vec::new());
         let mut column = base.columns.len();
         let mut parameters = vec![(usize::MAX, 0); column];
@@ -164,7 +147,13 @@ impl Pass {
         let name = |block: &Block| candidates[block.candidate].effect.name;
         let simpler = || Simpler::of(&evidence, &blocks, gram.samples, &name);
         let simpler = if base.columns.is_empty() { simpler() } else { Simpler::default() };
-        Self { simpler, models: evidence.models(), scores, invisible, detectable, singles, blocks }
+        let stands = |model: &Model| {
+            let of = model.blocks.iter().filter_map(|&block| scores[block]);
+            let score = of.fold((0.0, 0), |sum, score| (sum.0 + score.0, sum.1 + score.1));
+            inflation <= 1.0 || of_name(inflation, model.ln_bayes, score) > THRESHOLD
+        };
+        let models = evidence.models().into_iter().filter(stands).collect();
+        Self { simpler, models, scores, invisible, detectable, singles, blocks }
     }
 
     /// The effect of a block.

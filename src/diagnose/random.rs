@@ -64,6 +64,20 @@ pub fn deflated(inflation: f64, ln_bayes: f64, chi2: f64) -> f64 {
     ln_bayes - 0.5 * chi2 * (1.0 - 1.0 / inflation)
 }
 
+/// What the freedom of a few numbers costs at most, and what that of each of many does, nats.
+const FREEDOM_NATS: (f64, f64) = (25.0, 5.0);
+/// What that of each number costs at least, beside random errors.
+const LEAST_FREEDOM_NATS: f64 = 3.0;
+
+/// Evidence of a name, or of several, that explain `chi2` by so many `numbers`, beside random errors.
+pub fn of_name(inflation: f64, ln_bayes: f64, (chi2, numbers): (f64, usize)) -> f64 {
+    // A fit may explain much more, or less, than the tangents from which the evidence is.
+    let most = FREEDOM_NATS.0.max(FREEDOM_NATS.1 * numbers as f64);
+    let least = LEAST_FREEDOM_NATS * numbers as f64;
+    let chi2 = chi2.max(2.0 * (ln_bayes + least)).min(2.0 * (ln_bayes + most));
+    deflated(inflation, ln_bayes, chi2)
+}
+
 /// How strong a random effect is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strength {
@@ -158,12 +172,23 @@ pub fn words(cluster: &Cluster) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::deflated;
+    use super::{deflated, of_name};
 
     #[test]
     fn evidence_is_less_beside_random_errors() {
         assert_eq!(deflated(1.0, 30.0, 70.0), 30.0);
         // 107 of chi squared are 7 beside noise of fifteen times the variance: nothing for ten numbers.
         assert!(deflated(15.0, 31.7, 107.0) < 0.0);
+    }
+
+    #[test]
+    fn many_numbers_cost_their_share_beside_random_errors() {
+        // A line of nine recordings that white frames let appear: 366 of chi squared for 27 numbers, beside four times the variance.
+        assert!(of_name(4.0, 126.0, (366.0, 27)) < 0.0);
+        // One number keeps a quarter of what it explains.
+        assert!(of_name(4.0, 180.0, (366.0, 1)) > 40.0);
+        // A fit that keeps more than tangents promise is not free of cost.
+        assert!(of_name(237.0, 5788.0, (11000.0, 18)) < 0.0);
+        assert_eq!(of_name(1.0, 126.0, (366.0, 27)), 126.0);
     }
 }

@@ -1,11 +1,12 @@
 //! The search: baseline, evidence of all candidates at once, fit of the best, and again for what is left.
 
+use super::alone::Alone;
 use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
 use super::fit::{Fit, fit};
 use super::gram::Noise;
-use super::pass::{Alone, Detectable, Pass, THRESHOLD};
+use super::pass::{Detectable, Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::simpler::Simpler;
 use std::collections::BTreeSet;
@@ -79,6 +80,8 @@ fn tolerated(named: &[Named]) -> f64 {
 pub struct Search<'a> {
     data: &'a Data,
     noise: Noise,
+    /// By how much white noise that samples share raises the variance of what columns say.
+    inflation: f64,
     baseline: Fit,
     /// The fit with what is named.
     current: Fit,
@@ -89,10 +92,11 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Of `data`, to which `baseline` was fitted without any effect.
-    pub fn new(data: &'a Data, baseline: Fit, noise: Noise) -> Self {
+    /// Of `data`, to which `baseline` was fitted without any effect, beside noise that samples share, which raises the variance of what columns say
+    /// by `inflation`.
+    pub fn new(data: &'a Data, baseline: Fit, noise: Noise, inflation: f64) -> Self {
         let current = baseline.clone();
-        Self { data, noise, baseline, current, named: Vec::new(), first: None, is_over: false }
+        Self { data, noise, inflation, baseline, current, named: Vec::new(), first: None, is_over: false }
     }
 
     /// What it finds when the forms of effects are trusted: what explains less than the others' forms may leave is named nevertheless, on clear
@@ -126,7 +130,7 @@ impl<'a> Search<'a> {
     fn go_on(&mut self, trust: bool) -> Option<Self> {
         let (data, noise) = (self.data, self.noise);
         let candidates = candidates(data, &self.current.series);
-        let pass = Pass::of(data, &self.current, &candidates, noise);
+        let pass = Pass::of(data, &self.current, &candidates, noise, self.inflation);
         let (_, alone) = self.first.get_or_insert_with(|| (pass.clone(), pass.alone(&candidates)));
         // Far from the baseline forms are not that well known.
         let is_far = self.baseline.is_far_from(&self.current);

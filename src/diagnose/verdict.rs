@@ -1,6 +1,7 @@
 //! The answer as other programs read it: `vuris-verdict/1`.
 
 use super::alias::alias_odds;
+use super::alone::Alone;
 use super::data::Data;
 use super::evidence::tail;
 use super::fit::{fit, unfitted};
@@ -9,7 +10,6 @@ use super::held_out::{HeldOut, held_out};
 use super::judge::{Judgement, Place, Verdict, judge};
 use super::next::next;
 use super::noise::measured;
-use super::pass::Alone;
 use super::pieces::{OF_NEIGHBOURS, Piece};
 use super::search::Named;
 use super::settle::{outlying, with_mask};
