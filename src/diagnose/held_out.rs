@@ -87,7 +87,7 @@ impl Predictor<'_> {
     }
 }
 
-/// Predicts every set of `data` by `before` and by `after`, neither of which has seen it.
+/// Predicts every set of `data`, in their order, by `before` and by `after`, neither of which has seen it.
 pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     let is_few = data.sets().len() < FOLDS * GROUP;
     let predict = |by: Predictor| -> Vec<Seen> {
@@ -95,7 +95,6 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
             true => predicted_frames(data, by, part),
             false => predicted(data, by, part, before.fit.is_far()),
         });
-        // In the order of the sets.
         parts.collect::<BTreeMap<usize, Seen>>().into_values().collect()
     };
     let new = predict(after);
