@@ -1,5 +1,6 @@
 //! Which candidates the data ask for: Bayes factors from score and information, no refit needed.
 
+use super::marginal::{White, ln_marginal};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -15,22 +16,6 @@ pub struct Block {
     pub variants: f64,
     /// Columns.
     pub columns: Vec<usize>,
-}
-
-/// A block in coordinates of its own in which its information is the identity.
-#[derive(Debug, Clone)]
-struct White {
-    basis: DMatrix<f64>,
-    /// The whole information times the basis.
-    informed: DMatrix<f64>,
-    score: DVector<f64>,
-}
-
-impl White {
-    /// What its directions, of unit information, have in common with another one's.
-    fn shared_with(&self, other: &Self) -> DMatrix<f64> {
-        self.basis.tr_mul(&other.informed)
-    }
 }
 
 /// Score and information of all blocks.
@@ -58,7 +43,6 @@ const LEAST_RHO: f64 = 1.0;
 const LEAST_EIGENVALUE: f64 = 1e-4;
 /// Of what columns together had before the projection this much is rounding (sums in single precision).
 const ROUNDING: f64 = 1e-5;
-const LEAST_PRIOR: f64 = 4.0;
 /// By so much evidence (nats) each way is preferred to the next one.
 const FIRST_NATS: f64 = 0.01;
 
@@ -195,8 +179,7 @@ impl<'a> Evidence<'a> {
                     basis[(column, number)] = eigen.eigenvectors[(place, which)] * length * scale[place];
                 }
             }
-            let score = basis.tr_mul(vector);
-            Some(White { informed: matrix * &basis, basis, score })
+            Some(White::new(matrix, vector, basis).or_alike(reach))
         };
         let white = blocks.iter().map(white).collect();
         Self { size: matrix.nrows(), blocks, white, candidates: candidates as f64 }
@@ -210,8 +193,8 @@ impl<'a> Evidence<'a> {
     /// Information, score, and the place of each block among them, of the `chosen` blocks together, in coordinates in which each block's own
     /// information is the identity. A block that cannot be seen has no place among them: an empty one.
     pub fn joint(&self, chosen: &[usize]) -> (DMatrix<f64>, DVector<f64>, Vec<Range<usize>>) {
-        let nothing = DMatrix::zeros(self.size, 0);
-        let none = White { basis: nothing.clone(), informed: nothing, score: DVector::zeros(0) };
+        let size = self.size;
+        let none = White::new(&DMatrix::zeros(size, size), &DVector::zeros(size), DMatrix::zeros(size, 0));
         self.together(
             &chosen.iter().map(|&block| self.white[block].as_ref().unwrap_or(&none)).collect::<Vec<_>>(),
         )
@@ -244,31 +227,13 @@ impl<'a> Evidence<'a> {
         let parts: Option<Vec<&White>> = chosen.iter().map(|&block| self.white[block].as_ref()).collect();
         let Some(parts) = parts else { return f64::NEG_INFINITY };
         let (inner, score, of) = self.together(&parts);
-        let mut prior: Vec<f64> =
-            parts.iter().map(|p| (p.score.norm_squared() / p.score.len() as f64).max(LEAST_PRIOR)).collect();
-        let mut ln_bayes = f64::NEG_INFINITY;
-        for _ in 0..4 {
-            let mut posterior = inner.clone();
-            for (range, prior) in of.iter().zip(&prior) {
-                range.clone().for_each(|n| posterior[(n, n)] += prior.recip());
-            }
-            let Some(cholesky) = posterior.cholesky() else { return f64::NEG_INFINITY };
-            let theta = cholesky.solve(&score);
-            let inverse = cholesky.inverse();
-            let ln_determinant = 2.0 * cholesky.l().diagonal().iter().map(|d| d.ln()).sum::<f64>();
-            let ln_prior: f64 =
-                of.iter().zip(&prior).map(|(range, prior)| range.len() as f64 * prior.ln()).sum();
-            ln_bayes = 0.5 * score.dot(&theta) - 0.5 * (ln_determinant + ln_prior);
-            for (range, prior) in of.iter().zip(&mut prior) {
-                let square: f64 = range.clone().map(|n| theta[n] * theta[n] + inverse[(n, n)]).sum();
-                *prior = (square / range.len() as f64).max(LEAST_PRIOR);
-            }
-        }
+        let ln_bayes = ln_marginal(&inner, &score, &of, &parts);
+        let choices: f64 = parts.iter().map(|part| part.choice).sum();
         let variants: f64 = chosen.iter().map(|&block| self.blocks[block].variants.max(1.0).ln()).sum();
         let effects = chosen.len() as f64;
         // Of ways that say the same the first one is it.
         let later: f64 = chosen.iter().map(|&block| FIRST_NATS * self.blocks[block].variant as f64).sum();
-        ln_bayes - effects - effects * (2.0 * self.candidates).ln() - variants - later
+        ln_bayes - choices - effects - effects * (2.0 * self.candidates).ln() - variants - later
     }
 
     /// Whether all that one of two blocks changes, but for next to nothing, the other one can change, too: both at once are no answer, because

@@ -20,6 +20,7 @@ mod judge;
 mod library;
 mod lines;
 mod location;
+mod marginal;
 mod next;
 mod noise;
 mod parts;

@@ -4,14 +4,20 @@ use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
 use super::location::{Located, Location};
 
-/// Evidence (nats) from which on errors that samples share at random count: some twenty-five of them are looked at.
+/// Evidence (nats) from which on noise that has more than was stated counts, and random errors that effects of the registry make.
 pub const CLUSTER_NATS: f64 = 7.0;
+/// The same of errors that samples share in other ways: some twenty-five are looked at, at their best strength.
+const NAMELESS_NATS: f64 = 8.5;
 /// A set's common position error up to this is the encoder's usual noise, m.
 const USUAL_JITTER_M: f64 = 0.5e-3;
 /// Of what random errors explain, columns of a coordinate must explain so much to be what they are.
 pub const ORDERED_SHARE: f64 = 0.2;
 /// Of the evidence for a random effect, columns explain less, but for what noise makes of them.
 const ORDERED_LEFT: (f64, f64) = (0.02, 4.0);
+/// Of the evidence for a random effect, columns that order it have so much, and a part of the rest that numbers have by chance.
+const ORDERED_MOST: f64 = 0.5;
+/// So many frames at least must show an error before it is known what numbers explain of it by chance.
+const FEW_FRAMES: f64 = 20.0;
 /// Errors of rows, columns and frames that are less correlated than this, in standard deviations, are white: of eight lags one in two
 /// hundred is above it by chance.
 const WHITE: f64 = 3.5;
@@ -29,8 +35,25 @@ fn unusual<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
         cluster.level == Level::Set && cluster.sigma < usual_sigma
     };
     let usual = location.clusters.iter().filter(is_usual).map(|cluster| cluster.ln_bayes);
-    let least = usual.fold(CLUSTER_NATS, f64::max);
-    location.clusters.iter().filter(|cluster| cluster.ln_bayes > least && !is_usual(cluster)).collect()
+    let of_usual = usual.fold(0.0, f64::max);
+    let least = |cluster: &Cluster| {
+        let kind = if effect_of(cluster).is_some() { CLUSTER_NATS } else { NAMELESS_NATS };
+        kind.max(of_usual)
+    };
+    location
+        .clusters
+        .iter()
+        .filter(|cluster| cluster.ln_bayes > least(cluster) && !is_usual(cluster))
+        .collect()
+}
+
+/// The effect of the registry that makes such errors.
+fn effect_of(cluster: &Cluster) -> Option<&'static str> {
+    match (cluster.level, MODES[cluster.mode]) {
+        (Level::Frame, "phase") => Some(JITTERS[0]),
+        (Level::Frame, "position") => Some(JITTERS[1]),
+        _ => None,
+    }
 }
 
 /// Noise beyond what was stated, of pixels, or offsets of rows, columns or frames that are white: a camera has it, and no physics is left
@@ -111,6 +134,12 @@ fn ordered(location: &Location, inflation: f64) -> f64 {
     location.columns.iter().map(left).fold(0.0, f64::max)
 }
 
+/// Whether columns of this evidence and so many numbers order a random error that so many frames show: what few of them show need not be random.
+fn is_most(columns: f64, numbers: usize, ln_bayes: f64, frames: f64) -> bool {
+    let by_chance = if frames < FEW_FRAMES { 0.0 } else { (numbers as f64 / frames).min(1.0) };
+    columns > (ORDERED_MOST + (1.0 - ORDERED_MOST) * by_chance) * ln_bayes
+}
+
 /// Both jitters, where frames show the other one, too, beside the `first`: more clearly than anything orders them.
 pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEffect; 2]> {
     let number = JITTERS.iter().position(|name| *name == first.name)?;
@@ -129,16 +158,16 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
 
 /// A random effect of the registry, if the strongest errors are what it makes, and nothing orders them.
 pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
-    let Cluster { level, mode, sigma, known_to, ln_bayes, inflation, .. } =
-        **errors(data, location).first()?;
-    if ordered(location, inflation) > ORDERED_LEFT.0 * ln_bayes + ORDERED_LEFT.1 {
+    let first = *errors(data, location).first()?;
+    let Cluster { sigma, known_to, ln_bayes, inflation, .. } = *first;
+    // As many as let the variance be known to its scatter.
+    let frames = 0.5 * (sigma / known_to).powi(2);
+    let orders = |located: &Located| is_most(located.ln_bayes, located.chi2.1, ln_bayes, frames);
+    let least = ORDERED_LEFT.0 * ln_bayes + ORDERED_LEFT.1;
+    if ordered(location, inflation) > least || location.columns.iter().any(orders) {
         return None;
     }
-    let name = match (level, MODES[mode]) {
-        (Level::Frame, "phase") => JITTERS[0],
-        (Level::Frame, "position") => JITTERS[1],
-        _ => return None,
-    };
+    let name = effect_of(first)?;
     Some(RandomEffect { name, strength: Strength { value: sigma, sigma: known_to }, ln_bayes, inflation })
 }
 
@@ -172,7 +201,7 @@ pub fn words(cluster: &Cluster) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{deflated, of_name};
+    use super::{deflated, is_most, of_name};
 
     #[test]
     fn evidence_is_less_beside_random_errors() {
@@ -190,5 +219,15 @@ mod tests {
         // A fit that keeps more than tangents promise is not free of cost.
         assert!(of_name(237.0, 5788.0, (11000.0, 18)) < 0.0);
         assert_eq!(of_name(1.0, 126.0, (366.0, 27)), 126.0);
+    }
+
+    #[test]
+    fn what_columns_order_is_not_random() {
+        // The paper's bench with a strong multipath: eight frames at the greatest velocity have most of it.
+        assert!(is_most(73_666.0, 9, 86_453.0, 8.0));
+        // Of a hundred frames thirty numbers have three tenths by chance.
+        assert!(!is_most(50_000.0, 30, 86_453.0, 100.0));
+        assert!(is_most(73_666.0, 30, 86_453.0, 100.0));
+        assert!(!is_most(80_000.0, 100, 86_453.0, 100.0));
     }
 }
