@@ -54,7 +54,7 @@ const CYCLES_M: (f64, f64) = (0.6, 250.0);
 const DRIFT_CYCLES: f64 = 3.0;
 /// The same where the line is twice the mains' frequency, which is known beforehand: Hz, and by what share it is off at most.
 const MAINS_DRIFT_CYCLES: f64 = 1.5;
-const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
+pub const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
 pub const MAINS_OFF: f64 = 2e-3;
 
 impl Series {

@@ -15,6 +15,7 @@ mod fit;
 mod gram;
 mod grid;
 mod held_out;
+mod images;
 mod jitters;
 mod judge;
 mod library;

@@ -7,7 +7,9 @@ use super::evidence::tail;
 use super::fit::{fit, unfitted};
 use super::gram::Noise;
 use super::held_out::{HeldOut, held_out};
+use super::images::{Image, also_seen, images, spread};
 use super::judge::{Judgement, Place, Verdict, judge};
+use super::lines::FLICKER;
 use super::next::next;
 use super::noise::measured;
 use super::pieces::{OF_NEIGHBOURS, Piece};
@@ -291,6 +293,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
+    let images = if named.name == FLICKER { images(data, &judgement.fit) } else { Vec::new() };
     let sentence = data.effect(named.name).map_or("", |effect| effect.sentence);
     let names: Vec<&str> = judgement.named.iter().map(|named| named.name).collect();
     let mut also_possible: Vec<String> = Vec::new();
@@ -307,11 +310,11 @@ fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
     let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp() + alias);
     EffectRow {
         name: named.name,
-        sentence: sentence.to_owned(),
+        sentence: format!("{sentence}{}", also_seen(&images)),
         probability,
         alias_risk: alias * probability,
         also_possible,
-        parameters: parameters(data, judgement, named.name),
+        parameters: parameters(data, judgement, named.name, &images),
         evidence: EvidenceRow {
             delta_chi2: chi2,
             degrees_of_freedom,
@@ -321,8 +324,8 @@ fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
     }
 }
 
-/// The fitted values of the effect called `name`, piece by piece.
-fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRow> {
+/// The fitted values of the effect called `name`, piece by piece; of a line, not better known than which of its `images` it is.
+fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) -> Vec<ParameterRow> {
     let fit = &judgement.fit;
     let of = |piece: &&Piece| piece.effect.name == name;
     let several = fit.pieces.iter().filter(of).count() > 1;
@@ -333,6 +336,7 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRo
         for (parameter, known) in piece.effect.parameters.iter().enumerate() {
             let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
             let sigma = column.map_or(0.0, |column| fit.sigma(column));
+            let sigma = sigma.hypot(spread(images, fit, number, parameter));
             if column.is_none() && !known.is_shape() {
                 continue;
             }
