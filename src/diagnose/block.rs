@@ -1,26 +1,43 @@
 //! Columns that are solved together: their sums over whitened frames.
 
+use super::acting::{Acting, Share};
 use super::columns::OWN;
 use super::data::Data;
 use super::gram::Whitened;
 use nalgebra::{DMatrix, DVector};
-use ndarray::{ArrayView2, Axis};
+use ndarray::linalg::general_mat_mul;
+use ndarray::{Array2, ArrayView2, Axis};
 
 /// Columns that are solved together, and, last, the residual.
 #[derive(Debug, Clone)]
 pub struct Block {
     /// G' W G, its lower triangle.
     pub full: DMatrix<f64>,
-    /// The pixels' own numbers against columns and residual: (4 x pixels) x (columns + 1).
+    /// The pixels' own numbers against columns and residual: (4 x pixels) x (columns + 1), number after number.
     pub mixed: DMatrix<f64>,
     /// A set's position against columns and residual.
     pub position: Vec<DVector<f64>>,
+    /// What is to be added to `mixed`: patterns times each of the pixels' own numbers, and which column has them.
+    waiting: Waiting,
+    /// Room for a frame's patterns.
+    values: Vec<f32>,
 }
 
-/// One frame, whitened: a row a pixel.
+/// What waits for others: frames that have a column are added to its sums together.
+#[derive(Debug, Clone, Default)]
+struct Waiting {
+    /// A value a pixel of each pattern, frame after frame.
+    values: Vec<f32>,
+    /// The pixels' own numbers in each frame.
+    own: Vec<f32>,
+    /// What columns have of the patterns, and in which frame these are.
+    shares: Vec<(Share, usize)>,
+}
+
+/// One frame, whitened: a value a pixel each.
 pub struct Rows<'a> {
     /// By the pixel's own numbers.
-    pub own: Vec<[f64; OWN]>,
+    pub own: [Vec<f64>; OWN],
     /// By the set's position.
     pub position: Vec<f64>,
     /// Root of the weight.
@@ -33,20 +50,24 @@ impl<'a> Rows<'a> {
     /// Those of a frame.
     pub fn of(data: &Data, whitened: &Whitened<'a>) -> Self {
         let Whitened { frame, roots, residual, .. } = *whitened;
-        let own = |(pixel, &root): (usize, &f64)| {
-            // A background never moves: as long as the light is on, its constant light is ambient light.
-            let constant = if data.tells_constant(pixel) { frame.own[2][pixel] } else { 0.0 };
-            [frame.own[0][pixel], frame.own[1][pixel], constant, frame.own[3][pixel]].map(|own| root * own)
+        let times = |values: &[f64]| -> Vec<f64> {
+            roots.iter().zip(values).map(|(root, value)| root * value).collect()
         };
-        let position = roots.iter().zip(&frame.position).map(|(root, position)| root * position);
-        Self {
-            own: roots.iter().enumerate().map(own).collect(),
-            position: position.collect(),
-            roots,
-            residual,
+        let mut own = frame.own.each_ref().map(|own| times(own));
+        // A background never moves: as long as the light is on, its constant light is ambient light.
+        for (pixel, constant) in own[2].iter_mut().enumerate() {
+            if !data.tells_constant(pixel) {
+                *constant = 0.0;
+            }
         }
+        Self { own, position: times(&frame.position), roots, residual }
     }
 }
+
+/// So many patterns are multiplied with all others at a time: half of a symmetric product need not be made.
+const PANEL: usize = 64;
+/// So many numbers may wait for their columns.
+const WAITING: usize = 1 << 17;
 
 impl Block {
     /// Without any frame, for so many `columns` and `sets`.
@@ -55,10 +76,12 @@ impl Block {
             full: DMatrix::zeros(columns + 1, columns + 1),
             mixed: DMatrix::zeros(OWN * pixels, columns + 1),
             position: vec![DVector::zeros(0); sets],
+            waiting: Waiting::default(),
+            values: Vec::new(),
         }
     }
 
-    /// With the frames of another, of other sets.
+    /// With the frames of another, of other sets; neither has any that wait.
     pub fn join(&mut self, other: Self) {
         self.full += other.full;
         self.mixed += other.mixed;
@@ -69,59 +92,225 @@ impl Block {
         }
     }
 
-    /// With `rows` of a frame of number `set`, in which the columns `active` act, by their numbers.
-    pub fn add(&mut self, set: usize, rows: &Rows, active: &[(usize, &[f64])]) {
+    /// With `rows` of a frame of number `set`, in which the columns `shared` act, and `own` ones that are counted from `first` on.
+    ///
+    /// Products are made in single precision, a frame at a time, and summed in double: what each of them rounds off is another.
+    pub fn add(&mut self, set: usize, rows: &Rows, shared: &Acting, own: &Acting, first: usize) {
         let (pixels, last) = (rows.roots.len(), self.full.nrows() - 1);
-        // The columns, the residual, and the set's position.
-        let mut values = Vec::with_capacity(pixels * (active.len() + 2));
-        for (_, column) in active {
-            values.extend(column.iter().zip(rows.roots).map(|(column, root)| root * column));
+        // The patterns, the residual, and the set's position.
+        let before = shared.patterns.len();
+        let residual = before + own.patterns.len();
+        let position = residual + 1;
+        let mut values = std::mem::take(&mut self.values);
+        values.resize(pixels * (position + 1), 0.0);
+        let patterns = shared.patterns.iter().chain(&own.patterns);
+        for (values, pattern) in values.chunks_exact_mut(pixels).zip(patterns) {
+            pulp::Arch::new().dispatch(|| times(rows.roots, pattern, values));
         }
-        values.extend_from_slice(rows.residual);
-        values.extend_from_slice(&rows.position);
-        let values = ArrayView2::from_shape((active.len() + 2, pixels), &values).expect("a row a column");
-        let numbers: Vec<usize> = active.iter().map(|(number, _)| *number).chain([last]).collect();
-        // Products of columns, each pair once but for those of one panel.
-        for first in (0..numbers.len()).step_by(PANEL) {
-            let width = PANEL.min(numbers.len() - first);
-            let rest = values.slice_axis(Axis(0), (first..).into());
-            let product = rest.slice_axis(Axis(0), (..width).into()).dot(&rest.t());
-            for (number, product) in product.outer_iter().enumerate() {
-                let column = numbers[first + number];
-                for (value, &row) in product.iter().skip(number).zip(&numbers[first + number..]) {
-                    self.full[(row.max(column), row.min(column))] += value;
-                }
-                self.position[set][column] += product[product.len() - 1];
+        for (number, of) in [(residual, rows.residual), (position, &rows.position[..])] {
+            let values = &mut values[pixels * number..pixels * (number + 1)];
+            values.iter_mut().zip(of).for_each(|(value, &of)| *value = of as f32);
+        }
+        let own = own.shares.iter().map(|share| share.after(first, before));
+        let of_residual = Share { column: last, pattern: residual, factor: 1.0 };
+        let shares: Vec<Share> = shared.shares.iter().copied().chain(own).chain([of_residual]).collect();
+        self.wait(rows, &values[..pixels * position], &shares);
+        let product = squared(&values, pixels);
+        let columns: Vec<&[Share]> = shares.chunk_by(|a, b| a.column == b.column).collect();
+        let mut with = vec![0.0; position + 1];
+        for (place, of) in columns.iter().enumerate() {
+            let column = of[0].column;
+            with.fill(0.0);
+            for share in *of {
+                let products = product.row(share.pattern);
+                let products = products.to_slice().expect("a row is a slice");
+                with.iter_mut()
+                    .zip(products)
+                    .for_each(|(sum, &value)| *sum += share.factor * f64::from(value));
+            }
+            self.position[set][column] += with[position];
+            let mut sums = self.full.column_mut(column);
+            let sums = sums.as_mut_slice();
+            for share in columns[place..].iter().copied().flatten() {
+                sums[share.column] += share.factor * with[share.pattern];
             }
         }
-        for (values, &column) in values.outer_iter().zip(&numbers) {
-            let mut sums = self.mixed.column_mut(column);
-            let values = values.to_slice().expect("a row is a slice");
-            let mix = Mix { own: &rows.own, values, sums: sums.as_mut_slice() };
-            pulp::Arch::new().dispatch(mix);
+        self.values = values;
+    }
+
+    /// What a frame adds to `mixed` waits for that of others: by `values` a pixel of its patterns.
+    fn wait(&mut self, rows: &Rows, values: &[f32], shares: &[Share]) {
+        let Waiting { values: waiting, own, shares: with } = &mut self.waiting;
+        let pixels = rows.roots.len();
+        let (frame, before) = (own.len() / (OWN * pixels), waiting.len() / pixels);
+        waiting.extend_from_slice(values);
+        own.extend(rows.own.iter().flatten().map(|&own| own as f32));
+        with.extend(shares.iter().map(|share| (share.after(0, before), frame)));
+        if waiting.len() > WAITING {
+            self.settle();
         }
+    }
+
+    /// Adds what waits: no frame is to come, or there is too much.
+    pub fn settle(&mut self) {
+        let Waiting { values, own, shares } = &mut self.waiting;
+        shares.sort_by_key(|(share, _)| share.column);
+        let mut sum = vec![0.0_f32; self.mixed.nrows()];
+        for of in shares.chunk_by(|(a, _), (b, _)| a.column == b.column) {
+            let mut sums = self.mixed.column_mut(of[0].0.column);
+            pulp::Arch::new().dispatch(Add { of, values, own, sum: &mut sum, sums: sums.as_mut_slice() });
+        }
+        values.clear();
+        own.clear();
+        shares.clear();
     }
 }
 
-/// So many columns are multiplied with all others at a time: half of a symmetric product need not be made.
-const PANEL: usize = 64;
+/// Products of two numbers a pixel, in single precision.
+#[inline(always)]
+fn times(a: &[f64], b: &[f64], product: &mut [f32]) {
+    for ((product, a), b) in product.iter_mut().zip(a).zip(b) {
+        *product = (a * b) as f32;
+    }
+}
 
-/// Adds a column's products with the pixels' own numbers to their sums.
-struct Mix<'a> {
-    own: &'a [[f64; OWN]],
-    values: &'a [f64],
+/// The products of all rows of so many `pixels` with each other.
+fn squared(values: &[f32], pixels: usize) -> Array2<f32> {
+    let count = values.len() / pixels;
+    let row = |number: usize| &values[pixels * number..pixels * (number + 1)];
+    if count <= FEW {
+        let arch = pulp::Arch::new();
+        return Array2::from_shape_fn((count, count), |(a, b)| arch.dispatch(|| dot(row(a), row(b))));
+    }
+    let values = ArrayView2::from_shape((count, pixels), values).expect("a row a pattern");
+    let mut product = Array2::zeros((count, count));
+    for first in (0..count).step_by(PANEL) {
+        let end = count.min(first + PANEL);
+        let panel = values.slice_axis(Axis(0), (first..end).into());
+        let rest = values.slice_axis(Axis(0), (first..).into());
+        let mut columns = product.slice_axis_mut(Axis(1), (first..end).into());
+        let mut below = columns.slice_axis_mut(Axis(0), (first..).into());
+        general_mat_mul(1.0, &rest, &panel.t(), 0.0, &mut below);
+        for row in end..count {
+            for column in first..end {
+                product[(column, row)] = product[(row, column)];
+            }
+        }
+    }
+    product
+}
+
+/// So few rows are multiplied one by one.
+const FEW: usize = 8;
+/// Sums that are made side by side.
+const LANES: usize = 16;
+
+#[inline(always)]
+fn dot(a: &[f32], b: &[f32]) -> f32 {
+    let mut sums = [0.0; LANES];
+    let (a, b) = (a.chunks(LANES), b.chunks(LANES));
+    for (a, b) in a.zip(b) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += a * b;
+        }
+    }
+    sums.iter().sum()
+}
+
+/// Adds what a column has of patterns, times the pixels' own numbers, to its sums.
+struct Add<'a> {
+    of: &'a [(Share, usize)],
+    values: &'a [f32],
+    own: &'a [f32],
+    sum: &'a mut [f32],
     sums: &'a mut [f64],
 }
 
-impl pulp::NullaryFnOnce for Mix<'_> {
+impl pulp::NullaryFnOnce for Add<'_> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        for ((sums, own), value) in self.sums.chunks_exact_mut(OWN).zip(self.own).zip(self.values) {
-            for (sum, own) in sums.iter_mut().zip(own) {
-                *sum += own * value;
+        let Self { of, values, own, sum, sums } = self;
+        let pixels = sum.len() / OWN;
+        sum.fill(0.0);
+        for (share, frame) in of {
+            let factor = share.factor as f32;
+            let values = &values[pixels * share.pattern..pixels * (share.pattern + 1)];
+            let own = &own[OWN * pixels * frame..OWN * pixels * (frame + 1)];
+            for (sum, own) in sum.chunks_exact_mut(pixels).zip(own.chunks_exact(pixels)) {
+                for ((sum, own), value) in sum.iter_mut().zip(own).zip(values) {
+                    *sum += factor * value * own;
+                }
             }
         }
+        for (sums, sum) in sums.iter_mut().zip(&*sum) {
+            *sums += f64::from(*sum);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::Draws;
+
+    const PIXELS: usize = 37;
+
+    fn draws(seed: u64) -> Vec<f64> {
+        Draws::of(seed, 3).normal(PIXELS)
+    }
+
+    /// Three columns that share two patterns, others that have their own, in frames of two sets: the sums are those of the columns written out, but for
+    /// rounding.
+    #[test]
+    fn shares_of_patterns_are_columns_written_out() {
+        let (mut block, first) = (Block::empty(PIXELS, 5, 2), 2);
+        let (mut full, mut mixed) = (DMatrix::<f64>::zeros(6, 6), DMatrix::<f64>::zeros(OWN * PIXELS, 6));
+        let mut position = vec![DVector::<f64>::zeros(6); 2];
+        for frame in 0..4 {
+            let seed = |n: u64| draws(100 * frame + n);
+            let (roots, residual) = (seed(1).iter().map(|v| v.abs()).collect::<Vec<_>>(), seed(2));
+            let rows = Rows {
+                own: [seed(3), seed(4), seed(5), seed(6)],
+                position: seed(7),
+                roots: &roots,
+                residual: &residual,
+            };
+            let (mut shared, mut own) = (Acting::default(), Acting::default());
+            let [a, b, c, d] = [8, 9, 10, 11].map(seed);
+            shared.column(1, a.clone());
+            let (of_b, of_c) = (own.pattern(b.clone()), own.pattern(c.clone()));
+            own.share(0, of_b, 2.0);
+            own.share(0, of_c, -0.5);
+            own.share(1, of_b, frame as f64);
+            own.column(2, d.clone());
+            let set = frame as usize / 2;
+            block.position[set].resize_vertically_mut(6, 0.0);
+            block.add(set, &rows, &shared, &own, first);
+            let sum =
+                |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..PIXELS).map(|p| roots[p] * of(p)).collect() };
+            let columns = [
+                (1, sum(&|p| a[p])),
+                (2, sum(&|p| 2.0 * b[p] - 0.5 * c[p])),
+                (3, sum(&|p| frame as f64 * b[p])),
+                (4, sum(&|p| d[p])),
+                (5, residual.clone()),
+            ];
+            for (number, column) in &columns {
+                for (other, with) in &columns {
+                    full[(*number, *other)] += column.iter().zip(with).map(|(x, y)| x * y).sum::<f64>();
+                }
+                position[set][*number] += column.iter().zip(&rows.position).map(|(x, y)| x * y).sum::<f64>();
+                for (place, own) in rows.own.iter().flatten().enumerate() {
+                    mixed[(place, *number)] += own * column[place % PIXELS];
+                }
+            }
+        }
+        block.settle();
+        assert!((&block.full - full.lower_triangle()).amax() < 1e-4 * full.amax());
+        assert!((&block.mixed - &mixed).amax() < 1e-5 * mixed.amax());
+        assert!(block.position.iter().zip(&position).all(|(a, b)| (a - b).amax() < 1e-4 * b.amax()));
+        assert!(full.amax() > 1.0 && block.full.column(0).amax() == 0.0);
     }
 }

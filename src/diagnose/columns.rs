@@ -1,9 +1,11 @@
 //! Tangents of the forward model: what each fitted number changes in every sample, by the model itself.
 
+use super::acting::Acting;
 use super::data::Data;
+use super::patterns::{Patterns, difference};
 use super::pieces::{Piece, active};
 use crate::bench::chain;
-use crate::physics::{Active, Chain, Exposure, Memory, Moment, PerPixel, Pixels, Waveform};
+use crate::physics::{Active, Chain, Exposure, Memory, Moment, PerPixel, Pixels, Place, Waveform};
 use std::sync::Arc;
 
 /// The numbers of a pixel that are fitted beside everything else: amplitude at 1 m, phase, constant light at 1 m, ambient light.
@@ -22,14 +24,15 @@ pub struct Column {
 enum Change {
     /// Another chain.
     Chain(Box<Chain>, f64),
-    /// One more effect.
-    More(Active, f64),
+    /// One more effect, by a small step or a finite one.
+    More { effect: Active, step: f64, is_finite: bool },
 }
 
 /// The chains of one recording: the base, and one for each difference from it.
 struct Chains {
     base: Chain,
-    own: [(Chain, f64); OWN],
+    /// By the pixels' own numbers, with the step, and the last place before which none of them matters.
+    own: [(Chain, f64, Place); OWN],
     /// By what each column differs; nothing where it does not act.
     columns: Vec<Option<Change>>,
     /// Whether a column needs the frame before.
@@ -53,8 +56,10 @@ pub struct Frame {
     pub ambient: PerPixel,
     /// By the target's position, DN a metre.
     pub position: Vec<f64>,
-    /// Tangents of the columns; empty where a column does not act in this recording.
-    pub columns: Vec<Vec<f64>>,
+    /// Tangents of the columns that act in this frame.
+    pub columns: Acting,
+    /// Number of columns, those that do not act here among them.
+    pub count: usize,
 }
 
 /// Step of the numerical tangents, relative to a number's usual size.
@@ -96,7 +101,8 @@ impl<'a> Tangents<'a> {
             };
             let own = [0, 1, 2, 3].map(|number| {
                 let (changed, step) = own_pixels(pixels, number);
-                (with(Arc::new(changed), effects.clone()), step)
+                let place = if number == 1 { Place::Clock } else { Place::Path };
+                (with(Arc::new(changed), effects.clone()), step, place)
             });
             let of = |column: &Column| {
                 let piece = fitted.iter().chain(tried).nth(column.piece)?;
@@ -126,13 +132,14 @@ impl<'a> Tangents<'a> {
                     changed[place].values = values;
                     Some(Change::Chain(Box::new(with(Arc::clone(pixels), changed)), step))
                 } else {
-                    Some(Change::More(Active { effect: piece.effect, values }, step))
+                    let effect = Active { effect: piece.effect, values };
+                    Some(Change::More { effect, step, is_finite: piece.finite })
                 }
             };
             let columns: Vec<Option<Change>> = columns.iter().map(of).collect();
-            let looks_back = columns
-                .iter()
-                .any(|change| matches!(change, Some(Change::More(more, _)) if more.effect.looks_back));
+            let looks_back = columns.iter().any(
+                |change| matches!(change, Some(Change::More { effect, .. }) if effect.effect.looks_back),
+            );
             Chains { base: with(Arc::clone(pixels), effects.clone()), own, columns, looks_back }
         });
         let chains = chains.collect();
@@ -154,37 +161,39 @@ impl<'a> Tangents<'a> {
         let before = Moment::before(index, |index| moments[index]);
         let Exposure { signal_dn: base, waveform, .. } = expose(&chains.base, moment, before, None);
         // Most of what is tried leaves the phases as they are.
-        let expose = |chain, moment| expose(chain, moment, before, waveform.clone()).signal_dn;
+        let expose = |chain: &Chain, moment| expose(chain, moment, before, waveform.clone()).signal_dn;
         let ambient = chains.base.pixels.ambient_dn.clone();
-        let difference = |signal: PerPixel, step: f64| -> Vec<f64> {
-            signal.iter().zip(&base).map(|(changed, base)| (changed - base) / step).collect()
-        };
         let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
-        let position = difference(expose(&chains.base, moved), POSITION_STEP_M);
-        let own = chains.own.each_ref().map(|(chain, step)| difference(expose(chain, moment), *step));
-        let stations = if chains.columns.iter().any(|change| matches!(change, Some(Change::More(..)))) {
-            let looks_back = chains.looks_back || chains.base.looks_back();
-            let before = looks_back.then(|| chains.base.remember(before, &[]));
-            chains.base.stations(moment, Memory { before, waveform: waveform.clone(), ..Memory::default() })
-        } else {
-            Vec::new()
-        };
-        let columns = chains.columns.iter().map(|change| match change {
-            Some(Change::Chain(chain, step)) => difference(expose(chain, moment), *step),
-            Some(Change::More(more, step)) => {
-                let station = &stations[more.effect.place as usize];
-                let mut exposure = station.clone();
-                more.effect.act_on(&more.values, &mut exposure);
-                if exposure.stands_as(station) {
-                    return Vec::new();
-                }
-                chains.base.resume(&mut exposure, more.effect.place);
-                difference(exposure.signal_dn, *step)
+        let position = difference(&expose(&chains.base, moved), &base, POSITION_STEP_M);
+        let looks_back = chains.looks_back || chains.base.looks_back();
+        let remembered = looks_back.then(|| chains.base.remember(before, &[]));
+        let memory = Memory { before: remembered, waveform: waveform.clone(), ..Memory::default() };
+        let stations = chains.base.stations(moment, memory);
+        let of_own = |(chain, step, place): &(Chain, f64, Place)| {
+            // What was in the frame before depends on these numbers, too.
+            if chain.looks_back() {
+                return difference(&expose(chain, moment), &base, *step);
             }
-            None => Vec::new(),
-        });
-        let columns = columns.collect();
-        Frame { base, own, ambient, position, columns }
+            let mut exposure = stations[*place as usize].clone();
+            exposure.pixels = Arc::clone(&chain.pixels);
+            chain.resume(&mut exposure, *place);
+            difference(&exposure.signal_dn, &base, *step)
+        };
+        let own = chains.own.each_ref().map(of_own);
+        let mut patterns = Patterns::new(&chains.base, &base, stations);
+        for (number, change) in chains.columns.iter().enumerate() {
+            match change {
+                Some(Change::Chain(chain, step)) => {
+                    patterns.acting.column(number, difference(&expose(chain, moment), &base, *step));
+                }
+                Some(Change::More { effect, step, is_finite }) => {
+                    patterns.more(number, effect, *step, *is_finite);
+                }
+                None => {}
+            }
+        }
+        let columns = patterns.acting;
+        Frame { base, own, ambient, position, columns, count: self.count }
     }
 
     /// Number of columns.

@@ -2,15 +2,13 @@
 //!
 //! A column is a way in which frames may be off (more light, more signal, another phase) times a function of the coordinate.
 
+use super::acting::Acting;
 use super::columns::Frame;
 use super::ranges::Ranges;
 use crate::frames::Geometry;
 use crate::physics::{Moment, Pixels, cos_sin};
 use crate::units::phase_rad;
 use std::f64::consts::TAU;
-
-/// Columns that act in a frame, by their numbers, with a value a pixel.
-pub type Acting = Vec<(usize, Vec<f64>)>;
 
 /// What a column may be made of, in one frame.
 pub struct View<'a> {
@@ -56,13 +54,23 @@ fn mode(view: &View, mode: usize) -> Vec<f64> {
     }
 }
 
-/// Columns of all modes, for functions of the frame alone: `(number of the function, its value)`.
+/// Columns of all modes, for functions of the frame alone: `(number of the function, its value)`, in order.
 fn by_frame(view: &View, of: usize, functions: &[(usize, f64)]) -> Acting {
-    let mut columns = Vec::new();
+    by_frame_after(Acting::default(), 0, view, of, functions)
+}
+
+/// The same after other columns, from number `first` on.
+fn by_frame_after(
+    mut columns: Acting,
+    first: usize,
+    view: &View,
+    of: usize,
+    functions: &[(usize, f64)],
+) -> Acting {
     for number in 0..MODES.len() {
-        let base = mode(view, number);
+        let pattern = columns.pattern(mode(view, number));
         for &(function, value) in functions.iter().filter(|(_, value)| *value != 0.0) {
-            columns.push((number * of + function, base.iter().map(|b| b * value).collect()));
+            columns.share(first + number * of + function, pattern, value);
         }
     }
     columns
@@ -80,7 +88,14 @@ fn by_pixel(view: &View, of: usize, function: impl Fn(usize) -> Vec<(usize, f64)
             }
         }
     }
-    columns.into_iter().enumerate().collect()
+    each(columns)
+}
+
+/// Columns that have a pattern each.
+fn each(columns: Vec<Vec<f64>>) -> Acting {
+    let mut acting = Acting::default();
+    columns.into_iter().enumerate().for_each(|(number, values)| acting.column(number, values));
+    acting
 }
 
 fn mode_shape(of: usize, column: usize, what: impl Fn(usize) -> String) -> String {
@@ -282,9 +297,7 @@ fn phase(view: &View) -> Acting {
     // Of offsets that divide the turn evenly, what rounding leaves of a zero is one.
     let of = |value: f64| if value.abs() < LEAST_OF_OFFSET { 0.0 } else { value };
     let functions: Vec<_> = turned.flat_map(|(cosine, sine)| [of(cosine), of(sine)]).enumerate().collect();
-    let of_offset = by_frame(view, OF_OFFSET, &functions);
-    let after = of_offset.into_iter().map(|(number, column)| (OF_RANGE + number, column));
-    columns.into_iter().enumerate().chain(after).collect()
+    by_frame_after(each(columns), OF_RANGE, view, OF_OFFSET, &functions)
 }
 
 fn further((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> (f64, f64) {
@@ -311,12 +324,19 @@ fn by_line(view: &View, along: impl Fn(usize) -> f64) -> Acting {
         2.0 * within(moment.position_m, view.ranges.position_m) - 1.0,
         2.0 * moment.time_s / view.ranges.duration_s[view.take].max(1e-9) - 1.0,
     ];
-    by_pixel(view, 2 * CHANGES.len(), |pixel| {
-        let x = along(pixel);
-        let of =
-            |(n, change): (usize, &f64)| [(2 * n, x * change), (2 * n + 1, (x * x - 1.0 / 3.0) * change)];
-        changes.iter().enumerate().flat_map(of).collect()
-    })
+    let places: Vec<f64> = (0..view.frame.base.len()).map(along).collect();
+    let mut columns = Acting::default();
+    for number in 0..MODES.len() {
+        let base = mode(view, number);
+        let pattern = |shape: fn(f64) -> f64| base.iter().zip(&places).map(|(b, &x)| b * shape(x)).collect();
+        let patterns = [|x| x, |x| x * x - 1.0 / 3.0].map(|shape| columns.pattern(pattern(shape)));
+        for (n, &change) in changes.iter().enumerate() {
+            for (bow, &pattern) in patterns.iter().enumerate() {
+                columns.share(2 * (number * CHANGES.len() + n) + bow, pattern, change);
+            }
+        }
+    }
+    columns
 }
 
 fn line_shape(_: &Ranges, column: usize) -> String {
@@ -345,7 +365,7 @@ fn code(view: &View) -> Acting {
             }
         });
     }
-    columns.into_iter().enumerate().collect()
+    each(columns)
 }
 
 fn code_shape(ranges: &Ranges, column: usize) -> String {
@@ -376,5 +396,5 @@ fn neighbours(view: &View) -> Acting {
         columns[2][pixel] = [left, right, above, below].iter().map(|more| more.max(0.0)).sum();
         columns[3][pixel] = mean - own;
     }
-    columns.into_iter().enumerate().collect()
+    each(columns)
 }

@@ -1,21 +1,21 @@
 //! One pass over the data: the normal equations of all columns, with the pixels' own numbers projected out.
 
+use super::acting::Acting;
 use super::block::{Block, Rows};
 use super::columns::{Frame, OWN, Tangents};
-use super::coordinates::Acting;
 use super::data::Data;
-use super::evidence::of_variance;
+use super::encoder_noise::jitter;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
 
 /// Sums over all samples, weighted by the noise.
 #[derive(Debug, Clone)]
 pub struct Gram {
-    /// A pixel's own numbers: J' W J.
-    own: Vec<Matrix4<f64>>,
+    /// The pixels' own numbers against each other, J' W J: a value a pixel of each pair of them.
+    own: Vec<Vec<f64>>,
     /// A set's position against itself.
     square: Vec<f64>,
-    /// A set's position against the pixels' own numbers.
+    /// A set's position against the pixels' own numbers, number after number.
     position_own: Vec<Vec<f32>>,
     /// Columns that are solved together, each block by itself.
     blocks: Vec<Block>,
@@ -27,8 +27,12 @@ pub struct Gram {
     ln_variance: f64,
 }
 
-/// What blocks have in a frame: columns by their numbers, where they act.
+/// What blocks have in a frame: the columns that act.
 pub type Filled = Vec<Acting>;
+
+/// Pairs of a pixel's own numbers.
+const PAIRS: [(usize, usize); OWN * (OWN + 1) / 2] =
+    [(0, 0), (0, 1), (0, 2), (0, 3), (1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)];
 
 /// One frame, whitened.
 pub struct Whitened<'a> {
@@ -109,7 +113,7 @@ pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise
 impl Gram {
     fn empty(pixels: usize, columns: &[usize], sets: usize) -> Self {
         Self {
-            own: vec![Matrix4::zeros(); pixels],
+            own: vec![vec![0.0; pixels]; PAIRS.len()],
             square: vec![0.0; sets],
             position_own: vec![Vec::new(); sets],
             blocks: columns.iter().map(|&columns| Block::empty(pixels, columns, sets)).collect(),
@@ -120,7 +124,7 @@ impl Gram {
     }
 
     fn join(mut self, other: Self) -> Self {
-        self.own.iter_mut().zip(other.own).for_each(|(a, b)| *a += b);
+        self.own.iter_mut().flatten().zip(other.own.iter().flatten()).for_each(|(a, b)| *a += b);
         self.square.iter_mut().zip(other.square).for_each(|(a, b)| *a += b);
         for (a, b) in self.position_own.iter_mut().zip(other.position_own) {
             if a.is_empty() {
@@ -153,7 +157,7 @@ impl Gram {
         visit: &(dyn Fn(T, &Whitened) -> T + Sync),
         merge: &(dyn Fn(T, T) -> T + Sync),
     ) -> (Self, T) {
-        let fill = |_: usize, _: usize, _: &Frame| vec![Vec::new()];
+        let fill = |_: usize, _: usize, _: &Frame| vec![Acting::default()];
         Self::with_blocks(data, tangents, noise, counts, &[0], &fill, visit, merge)
     }
 
@@ -199,6 +203,7 @@ impl Gram {
                         sums.add(data, &whitened, &fill(take, index, &frame));
                     }
                 }
+                sums.blocks.iter_mut().for_each(Block::settle);
                 (sums, visited)
             })
             .reduce_with(|(a, x), (b, y)| (a.join(b), merge(x, y)))
@@ -209,46 +214,62 @@ impl Gram {
     fn add(&mut self, data: &Data, whitened: &Whitened, filled: &Filled) {
         let rows = Rows::of(data, whitened);
         let set = whitened.set;
-        for (pixel, (own, &position)) in rows.own.iter().zip(&rows.position).enumerate() {
-            let vector = Vector4::from(*own);
-            self.own[pixel] += vector * vector.transpose();
-            if position != 0.0 {
-                let sums = &mut self.position_own[set][OWN * pixel..];
-                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += (own * position) as f32);
-                self.square[set] += position * position;
+        pulp::Arch::new().dispatch(|| {
+            for (sums, (a, b)) in self.own.iter_mut().zip(PAIRS) {
+                for ((sum, a), b) in sums.iter_mut().zip(&rows.own[a]).zip(&rows.own[b]) {
+                    *sum += a * b;
+                }
             }
-        }
+            let pixels = rows.roots.len();
+            for (sums, own) in self.position_own[set].chunks_exact_mut(pixels).zip(&rows.own) {
+                for ((sum, own), position) in sums.iter_mut().zip(own).zip(&rows.position) {
+                    *sum += (own * position) as f32;
+                }
+            }
+        });
+        self.square[set] += rows.position.iter().map(|position| position * position).sum::<f64>();
         self.chi2 += rows.residual.iter().map(|residual| residual * residual).sum::<f64>();
         self.samples += rows.roots.iter().filter(|root| **root > 0.0).count();
         let shared = &whitened.frame.columns;
         for (block, filled) in self.blocks.iter_mut().zip(filled) {
-            let common = shared.iter().enumerate().map(|(column, values)| (column, &values[..]));
-            let own = filled.iter().map(|(column, values)| (shared.len() + column, &values[..]));
-            let active: Vec<_> = common.chain(own).filter(|(_, values)| !values.is_empty()).collect();
-            block.add(set, &rows, &active);
+            block.add(set, &rows, shared, filled, whitened.frame.count);
         }
+    }
+
+    /// The normal equations of each pixel's own numbers, solved.
+    fn inverses(&self) -> Vec<Matrix4<f64>> {
+        let of = |pixel: usize| {
+            let mut own = Matrix4::zeros();
+            for (sums, (a, b)) in self.own.iter().zip(PAIRS) {
+                own[(a, b)] = sums[pixel];
+                own[(b, a)] = sums[pixel];
+            }
+            inverse(&own)
+        };
+        (0..self.own[0].len()).map(of).collect()
     }
 
     /// Solves everything that the columns of the first block do not decide: [`Projected`]. `jitter_m2`: variance of the encoder's
     /// reading, set by set; where it is not given it is estimated.
     pub fn project(&self, jitter_m2: Option<f64>) -> Projected {
-        let inverses: Vec<Matrix4<f64>> = self.own.iter().map(inverse).collect();
+        let inverses = self.inverses();
         self.project_block(&self.blocks[0], &inverses, jitter_m2)
     }
 
     /// The same for every block.
     pub fn project_all(&self, jitter_m2: f64) -> Vec<Projected> {
-        let inverses: Vec<Matrix4<f64>> = self.own.iter().map(inverse).collect();
+        let inverses = self.inverses();
         self.blocks.par_iter().map(|block| self.project_block(block, &inverses, Some(jitter_m2))).collect()
     }
 
     fn project_block(&self, block: &Block, inverses: &[Matrix4<f64>], jitter_m2: Option<f64>) -> Projected {
-        let size = block.full.nrows();
+        let (size, pixels) = (block.full.nrows(), inverses.len());
         let mut solved = block.mixed.clone();
         for mut column in solved.column_iter_mut() {
-            for (own, inverse) in column.as_mut_slice().chunks_exact_mut(OWN).zip(inverses) {
-                let values = inverse * Vector4::from_column_slice(own);
-                own.copy_from_slice(values.as_slice());
+            let column = column.as_mut_slice();
+            for (pixel, inverse) in inverses.iter().enumerate() {
+                let values = inverse * own_of(column, pixel);
+                (0..OWN).for_each(|number| column[number * pixels + pixel] = values[number]);
             }
         }
         let own = block.mixed.transpose() * &solved;
@@ -265,7 +286,7 @@ impl Gram {
             let taken = &turned * &own;
             for (number, &((sums, square), _)) in seen.iter().enumerate() {
                 let own = own.column(number);
-                let own = own.as_slice().chunks_exact(OWN).map(Vector4::from_column_slice);
+                let own = (0..pixels).map(|pixel| own_of(own.as_slice(), pixel));
                 let absorbed: f64 = own.zip(inverses).map(|(own, inverse)| own.dot(&(inverse * own))).sum();
                 if square - absorbed > 0.0 {
                     sets.push((sums - taken.column(number), square - absorbed));
@@ -290,6 +311,12 @@ impl Gram {
     }
 }
 
+/// A pixel's own numbers among those of all, number after number.
+fn own_of(all: &[f64], pixel: usize) -> Vector4<f64> {
+    let pixels = all.len() / OWN;
+    Vector4::from_fn(|number, _| all[number * pixels + pixel])
+}
+
 /// Pseudo-inverse: what a pixel's own numbers are not told apart by stays where it is.
 fn inverse(own: &Matrix4<f64>) -> Matrix4<f64> {
     let scale =
@@ -300,34 +327,6 @@ fn inverse(own: &Matrix4<f64>) -> Matrix4<f64> {
     let inverse = eigen.eigenvectors * Matrix4::from_diagonal(&kept) * eigen.eigenvectors.transpose();
     Matrix4::from_fn(|row, column| inverse[(row, column)] * scale[row] * scale[column])
 }
-
-/// The variance of the encoder's reading that explains the sets' common position errors best, m²: `(sum, square)` a set.
-fn jitter(sets: &[(f64, f64)]) -> f64 {
-    let evidence =
-        |variance: f64| -> f64 { sets.iter().map(|&(sum, square)| of_variance(variance, sum, square)).sum() };
-    let best = |variances: &mut dyn Iterator<Item = f64>, from: (f64, f64)| {
-        variances.map(|v| (v, evidence(v))).fold(from, |best, v| if v.1 > best.1 { v } else { best })
-    };
-    // From a micrometre to half a millimetre: more is no encoder's noise, but something that must be named.
-    let coarse =
-        (0..=JITTERS).map(|step| LEAST_JITTER_M * MOST_JITTERS.powf(f64::from(step) / f64::from(JITTERS)));
-    let mut found = best(&mut coarse.map(|jitter_m| jitter_m * jitter_m), (0.0, 0.0));
-    // Between two of these chi squared changes by some units where there are a thousand sets; two fits are compared by less.
-    let mut ratio = MOST_JITTERS.powf(2.0 / f64::from(JITTERS));
-    while found.0 > 0.0 && ratio > FINE_RATIO {
-        ratio = ratio.powf(0.25);
-        let about = found.0;
-        found = best(&mut (-3..=3).map(|step| about * ratio.powi(step)), found);
-    }
-    found.0
-}
-
-/// Jitters of the encoder's reading that are tried first: from the least, m, so many up to so many times that; and between them up to steps of this ratio
-/// of variances.
-const LEAST_JITTER_M: f64 = 1e-6;
-const MOST_JITTERS: f64 = 500.0;
-const JITTERS: i32 = 60;
-const FINE_RATIO: f64 = 1.005;
 
 impl Projected {
     /// Takes the first `count` columns as fitted: what they share with the others is theirs.
@@ -360,7 +359,7 @@ pub struct Projected {
     pub chi2: f64,
     /// Chi squared that the pixels' own numbers take away by a step.
     pub settled: f64,
-    /// Change of the pixels' own numbers a unit of each column, and, last, by the residual: (4 x pixels) x (columns + 1).
+    /// Change of the pixels' own numbers a unit of each column, and, last, by the residual: (4 x pixels) x (columns + 1), number after number.
     solved: DMatrix<f64>,
 }
 
@@ -369,32 +368,6 @@ impl Projected {
     pub fn own(&self, theta: &DVector<f64>) -> Vec<Vector4<f64>> {
         let last = theta.len();
         let own = self.solved.column(last) - self.solved.columns(0, last) * theta;
-        own.as_slice().chunks_exact(OWN).map(Vector4::from_column_slice).collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::physics::Draws;
-
-    /// The evidence at the jitter that is found is the greatest but for a hundredth of a nat, wherever that jitter lies between the steps.
-    #[test]
-    fn the_encoders_jitter_is_where_its_evidence_is_greatest() {
-        for (seed, jitter_m) in [(1, 3e-5_f64), (2, 3.1e-5), (3, 3.2e-5), (4, 4e-4)] {
-            let square = 1e10_f64;
-            let draws = Draws::of(seed, 1).normal(1200);
-            let sigma = (square + square * square * jitter_m * jitter_m).sqrt();
-            let sets: Vec<(f64, f64)> = draws.into_iter().map(|draw| (draw * sigma, square)).collect();
-            let evidence = |variance: f64| -> f64 {
-                sets.iter().map(|&(sum, square)| of_variance(variance, sum, square)).sum()
-            };
-            // All sets are alike: the likelihood's peak is known (the mean square of the scores).
-            let mean = sets.iter().map(|(sum, _)| sum * sum).sum::<f64>() / 1200.0;
-            let exact = (mean / square - 1.0) / square;
-            let lost = evidence(exact) - evidence(jitter(&sets));
-            assert!((0.0..0.01).contains(&lost), "{jitter_m}: {lost}");
-        }
-        assert_eq!(jitter(&[(0.0, 1e10); 10]), 0.0);
+        (0..own.len() / OWN).map(|pixel| own_of(own.as_slice(), pixel)).collect()
     }
 }

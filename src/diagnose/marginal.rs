@@ -54,7 +54,12 @@ impl White {
         };
         let of = |white: &Self| {
             let size = white.score.len();
-            ln_marginal(&DMatrix::identity(size, size), &white.score, &[0..size], &[white])
+            ln_marginal(
+                &DMatrix::identity(size, size),
+                &white.score,
+                std::slice::from_ref(&(0..size)),
+                &[white],
+            )
         };
         let [one, other] = [of(&self), of(&alike)];
         // Either is as likely.
@@ -117,7 +122,7 @@ mod tests {
     fn ln_of(white: &White) -> f64 {
         let size = white.score.len();
         let inner = DMatrix::identity(size, size);
-        ln_marginal(&inner, &white.score, &[0..size], &[white]) - white.choice
+        ln_marginal(&inner, &white.score, std::slice::from_ref(&(0..size)), &[white]) - white.choice
     }
 
     #[test]

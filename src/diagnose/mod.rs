@@ -1,5 +1,6 @@
 //! Diagnosis: where recordings and simulation disagree, and which physics was left out.
 
+mod acting;
 mod alias;
 mod alone;
 mod block;
@@ -10,6 +11,7 @@ mod columns;
 mod contest;
 mod coordinates;
 mod data;
+mod encoder_noise;
 mod evidence;
 mod fit;
 mod gram;
@@ -26,6 +28,7 @@ mod next;
 mod noise;
 mod parts;
 mod pass;
+mod patterns;
 mod periodogram;
 mod pieces;
 mod places;

@@ -166,19 +166,41 @@ impl Exposure {
 
     /// Whether `other` stands where this one stands: what effects change is the same in both.
     pub fn stands_as(&self, other: &Self) -> bool {
-        let scalars = |e: &Self| {
-            [
-                e.position_m,
-                e.velocity_m_s,
-                e.in_set_s,
-                e.motion_share,
-                e.falloff_share,
-                e.frequency_hz,
-                e.angle_rad,
-            ]
-        };
-        scalars(self) == scalars(other)
-            && self.range_m == other.range_m
+        self.scalars() == other.scalars() && self.arrays_stand_as(other)
+    }
+
+    /// Numbers of a frame that effects change.
+    pub const SCALARS: usize = 7;
+
+    /// Those numbers.
+    pub fn scalars(&self) -> [f64; Self::SCALARS] {
+        [
+            self.position_m,
+            self.velocity_m_s,
+            self.in_set_s,
+            self.motion_share,
+            self.falloff_share,
+            self.frequency_hz,
+            self.angle_rad,
+        ]
+    }
+
+    /// The same in the same order, to be changed.
+    pub fn scalars_mut(&mut self) -> [&mut f64; Self::SCALARS] {
+        [
+            &mut self.position_m,
+            &mut self.velocity_m_s,
+            &mut self.in_set_s,
+            &mut self.motion_share,
+            &mut self.falloff_share,
+            &mut self.frequency_hz,
+            &mut self.angle_rad,
+        ]
+    }
+
+    /// Whether everything else that effects change is the same in both.
+    pub fn arrays_stand_as(&self, other: &Self) -> bool {
+        self.range_m == other.range_m
             && self.phase_rad == other.phase_rad
             && self.amplitude_dn == other.amplitude_dn
             && self.constant_dn == other.constant_dn
@@ -195,33 +217,26 @@ impl Exposure {
     /// Ranges and phases from position and motion.
     pub fn look(&mut self) {
         let position_m = self.position_m + self.motion_share * self.way_m();
-        let pixels = &self.pixels;
-        let range_m = |pixel: usize| match pixels.target[pixel] {
-            true => position_m * pixels.obliquity[pixel],
-            false => pixels.background_m[pixel],
-        };
-        self.range_m = (0..pixels.count()).map(range_m).collect();
-        let frequency_hz = self.frequency_hz;
-        let phases = self.range_m.iter().zip(&pixels.phase_rad);
-        self.phase_rad =
-            phases.map(|(&range_m, own_rad)| phase_rad(range_m, frequency_hz) + own_rad).collect();
+        let (pixels, frequency_hz) = (&self.pixels, self.frequency_hz);
+        pulp::Arch::new().dispatch(|| {
+            self.range_m = ranges_m(pixels, position_m);
+            let phases = self.range_m.iter().zip(&pixels.phase_rad);
+            self.phase_rad =
+                phases.map(|(&range_m, own_rad)| phase_rad(range_m, frequency_hz) + own_rad).collect();
+        });
     }
 
     /// Light from ranges: the camera's own falls with the square of the range, ambient light does not.
     pub fn light(&mut self) {
         let position_m = self.position_m + self.falloff_share * self.way_m();
         let (pixels, lit) = (&self.pixels, f64::from(u8::from(self.moment.lit)));
-        let share = |pixel: usize| {
-            let range_m = match pixels.target[pixel] {
-                true => position_m * pixels.obliquity[pixel],
-                false => pixels.background_m[pixel],
-            };
-            lit / (range_m * range_m)
-        };
-        let shares: Vec<f64> = (0..pixels.count()).map(share).collect();
-        let times = |of: &[f64]| of.iter().zip(&shares).map(|(light, share)| light * share).collect();
-        self.amplitude_dn = times(&pixels.amplitude_1m_dn);
-        self.constant_dn = times(&pixels.constant_1m_dn);
+        pulp::Arch::new().dispatch(|| {
+            let shares: Vec<f64> =
+                ranges_m(pixels, position_m).iter().map(|range_m| lit / (range_m * range_m)).collect();
+            let times = |of: &[f64]| of.iter().zip(&shares).map(|(light, share)| light * share).collect();
+            self.amplitude_dn = times(&pixels.amplitude_1m_dn);
+            self.constant_dn = times(&pixels.constant_1m_dn);
+        });
         self.ambient_dn = pixels.ambient_dn.clone();
     }
 
@@ -233,9 +248,12 @@ impl Exposure {
             .filter(|known| known.is_of(&self.correlation, &self.phase_rad, self.angle_rad));
         let waveform = known
             .unwrap_or_else(|| Arc::new(Waveform::of(&self.correlation, &self.phase_rad, self.angle_rad)));
-        let offsets = self.constant_dn.iter().zip(&self.ambient_dn).map(|(own, ambient)| own + ambient);
-        let varying = self.amplitude_dn.iter().zip(waveform.relative()).map(|(dn, relative)| dn * relative);
-        self.signal_dn = offsets.zip(varying).map(|(offset, varying)| offset + varying).collect();
+        pulp::Arch::new().dispatch(|| {
+            let offsets = self.constant_dn.iter().zip(&*self.ambient_dn).map(|(own, ambient)| own + ambient);
+            let varying =
+                self.amplitude_dn.iter().zip(waveform.relative()).map(|(dn, relative)| dn * relative);
+            self.signal_dn = offsets.zip(varying).map(|(offset, varying)| offset + varying).collect();
+        });
         self.waveform = Some(waveform);
     }
 
@@ -249,4 +267,14 @@ impl Exposure {
     pub fn add_path(&mut self, amplitude_dn: &[f64], phase_rad: &[f64]) {
         self.correlation.add(amplitude_dn, phase_rad, self.angle_rad, &mut self.signal_dn);
     }
+}
+
+/// Radial ranges where the target is at `position_m`, m.
+#[inline(always)]
+fn ranges_m(pixels: &Pixels, position_m: f64) -> PerPixel {
+    let places = pixels.target.iter().zip(&pixels.obliquity).zip(&pixels.background_m);
+    let range_m = |((&target, obliquity), &background_m): ((&bool, &f64), &f64)| {
+        if target { position_m * obliquity } else { background_m }
+    };
+    places.map(range_m).collect()
 }
