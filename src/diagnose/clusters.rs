@@ -182,7 +182,8 @@ impl Clusters {
                 }
             }
         }
-        self.jitters.add(Frame::seen(frame, whitened.roots, whitened.residual, velocity_m_s));
+        let Whitened { roots, residual, set, .. } = *whitened;
+        self.jitters.add(Frame::seen(frame, roots, residual, set, velocity_m_s));
         if (whitened.index + 1).is_multiple_of(take.frames) {
             let sums = std::mem::take(&mut self.set);
             // Without its light the camera has neither gain nor phase.

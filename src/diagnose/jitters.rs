@@ -15,6 +15,10 @@ pub struct Frame {
     pub time: (f64, f64),
     /// Information that both share.
     pub shared: f64,
+    /// Number of its set, over all recordings.
+    pub set: usize,
+    /// The target's velocity, m/s.
+    pub velocity_m_s: f64,
 }
 
 /// What all frames say.
@@ -53,9 +57,15 @@ fn ln_step(kind: usize) -> f64 {
 }
 
 impl Frame {
-    /// What the residuals of a frame, whitened with the `roots` of their weights, say of both at this velocity.
-    pub fn seen(frame: &columns::Frame, roots: &[f64], residuals: &[f64], velocity_m_s: f64) -> Self {
-        let mut seen = Self { phase: (0.0, 0.0), time: (0.0, 0.0), shared: 0.0 };
+    /// What the residuals of a frame of a `set`, whitened with the `roots` of their weights, say of both at this velocity.
+    pub fn seen(
+        frame: &columns::Frame,
+        roots: &[f64],
+        residuals: &[f64],
+        set: usize,
+        velocity_m_s: f64,
+    ) -> Self {
+        let mut seen = Self { phase: (0.0, 0.0), time: (0.0, 0.0), shared: 0.0, set, velocity_m_s };
         let tangents = frame.own[1].iter().zip(&frame.position);
         for ((root, residual), (phase, position)) in roots.iter().zip(residuals).zip(tangents) {
             let (phase, time) = (root * phase, root * velocity_m_s * position);
@@ -95,6 +105,11 @@ impl Jitters {
     pub fn and(mut self, other: Self) -> Self {
         self.frames.extend(other.frames);
         self
+    }
+
+    /// The frames.
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
     }
 
     /// Evidence of all frames for errors of these standard deviations, nats.
@@ -185,6 +200,8 @@ mod tests {
                 phase: (PHASE * off, PHASE * PHASE),
                 time: (by_time * off, by_time * by_time),
                 shared: PHASE * by_time,
+                set: 0,
+                velocity_m_s: 1.0,
             });
         }
         jitters
@@ -220,7 +237,7 @@ mod tests {
     /// Against the definition, by integrals over both errors.
     #[test]
     fn evidence_is_the_integral_over_both_errors() {
-        let frame = Frame { phase: (1.3, 2.0), time: (-0.4, 1.5), shared: 0.7 };
+        let frame = Frame { phase: (1.3, 2.0), time: (-0.4, 1.5), shared: 0.7, set: 0, velocity_m_s: 1.0 };
         let (a, b) = (0.8, 0.6);
         let (mut sum, step) = (0.0, 0.02);
         for (x, y) in (-400..=400).flat_map(|x| (-400..=400).map(move |y| (x, y))) {

@@ -94,9 +94,11 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let shape = format!("a wave of {:.1} {name}s, {:+.3} Hz", wave.lines * every, wave.hz);
         Located::wave(name, shape, wave.found)
     }));
-    columns.extend(clusters.swings().into_iter().map(|swing| {
-        let shape = format!("{}, a swing of {:.3} Hz", swing.mode, swing.hz);
-        Located::wave("time_s", shape, swing.found)
+    columns.extend(clusters.swings().into_iter().map(|swing| match swing.alternates {
+        true => Located::wave("set", format!("{}, every other set", swing.mode), swing.found),
+        false => {
+            Located::wave("time_s", format!("{}, a swing of {:.3} Hz", swing.mode, swing.hz), swing.found)
+        }
     }));
     columns.extend(codes.strongest().map(|wave| {
         let shape = format!("with a period of {:.1} DN", wave.period_dn);

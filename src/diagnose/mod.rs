@@ -40,6 +40,7 @@ mod settle;
 mod simpler;
 mod source;
 mod start;
+mod steady;
 mod swings;
 mod tamed;
 mod verdict;

@@ -3,6 +3,7 @@
 use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
 use super::location::{Located, Location};
+use super::steady::is_steady;
 
 /// Evidence (nats) from which on noise that has more than was stated counts, and random errors that effects of the registry make.
 pub const CLUSTER_NATS: f64 = 7.0;
@@ -151,12 +152,13 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
         ..first
     };
     let least = SECOND.0 * first.ln_bayes + SECOND.1 + ordered(location, first.inflation);
-    let is_clear = both.beside.iter().all(|nats| *nats > least);
     let other = 1 - number;
+    let is_clear = both.beside.iter().all(|nats| *nats > least)
+        && !is_steady(&location.jitters, other, both.strengths[other].value);
     is_clear.then(|| [of(number, first.ln_bayes), of(other, both.beside[other])])
 }
 
-/// A random effect of the registry, if the strongest errors are what it makes, and nothing orders them.
+/// A random effect of the registry, if the strongest errors are what it makes, and nothing orders them, and they have no mean.
 pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     let first = *errors(data, location).first()?;
     let Cluster { sigma, known_to, ln_bayes, inflation, .. } = *first;
@@ -168,6 +170,10 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
         return None;
     }
     let name = effect_of(first)?;
+    let kind = JITTERS.iter().position(|jitter| *jitter == name)?;
+    if is_steady(&location.jitters, kind, sigma) {
+        return None;
+    }
     Some(RandomEffect { name, strength: Strength { value: sigma, sigma: known_to }, ln_bayes, inflation })
 }
 

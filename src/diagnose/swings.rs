@@ -39,6 +39,8 @@ pub struct Swing {
     pub mode: &'static str,
     /// Its frequency, Hz.
     pub hz: f64,
+    /// Whether it comes and goes with every other set.
+    pub alternates: bool,
     /// What it says among all frequencies.
     pub found: Greatest,
 }
@@ -51,6 +53,8 @@ const LEAST_SETS: usize = 16;
 const NUMBERS: usize = 2;
 /// Standard deviations that a set is taken to be off at most.
 const MOST: f64 = 10.0;
+/// From this share of the greatest frequency that sets can show on, a swing is one of every other set.
+const ALTERNATING: f64 = 0.98;
 /// Products of frequencies and sets that are looked at, at most.
 const MOST_PRODUCTS: f64 = 2e8;
 
@@ -128,7 +132,8 @@ impl Swings {
         };
         let sizes: Vec<(f64, f64)> = takes.iter().map(size).collect();
         let found = Greatest::of(line.chi2, NUMBERS * takes.len(), line.looked);
-        agree(&sizes).then_some(Swing { mode: MODES[mode], hz: line.frequency, found })
+        let alternates = 2.0 * line.frequency * usual_s > ALTERNATING;
+        agree(&sizes).then_some(Swing { mode: MODES[mode], hz: line.frequency, alternates, found })
     }
 }
 
@@ -167,6 +172,15 @@ mod tests {
         assert!(swing(12, [0.5, 1.5], thermostat).is_some_and(|found| found.found.ln_bayes > 4.0));
         let strong = swing(13, [1.0, 1.0], |take, time_s| 8.0 * thermostat(take, time_s)).unwrap();
         assert!(strong.found.ln_bayes > 100.0, "{strong:?}");
+    }
+
+    #[test]
+    fn what_changes_its_sign_from_set_to_set_alternates() {
+        let alternates = |period_s: f64| {
+            let swings = swing(14, [1.0, 1.0], |_, time_s| (TAU * time_s / period_s + 0.7).cos()).unwrap();
+            swings.alternates
+        };
+        assert!(alternates(0.4) && !alternates(0.5) && !alternates(3.1));
     }
 
     #[test]
