@@ -51,7 +51,8 @@ impl<'a> Rows<'a> {
     pub fn of(data: &Data, whitened: &Whitened<'a>) -> Self {
         let Whitened { frame, roots, residual, .. } = *whitened;
         let times = |values: &[f64]| -> Vec<f64> {
-            roots.iter().zip(values).map(|(root, value)| root * value).collect()
+            pulp::Arch::new()
+                .dispatch(|| roots.iter().zip(values).map(|(root, value)| root * value).collect())
         };
         let mut own = frame.own.each_ref().map(|own| times(own));
         // A background never moves: as long as the light is on, its constant light is ambient light.

@@ -5,7 +5,7 @@ use super::data::Data;
 use super::patterns::{Patterns, difference};
 use super::pieces::{Piece, active};
 use crate::bench::chain;
-use crate::physics::{Active, Chain, Exposure, Memory, Moment, PerPixel, Pixels, Place, Waveform};
+use crate::physics::{Active, Chain, Exposure, Memory, Moment, PerPixel, Pixels, Place};
 use std::sync::Arc;
 
 /// The numbers of a pixel that are fitted beside everything else: amplitude at 1 m, phase, constant light at 1 m, ambient light.
@@ -149,8 +149,8 @@ impl<'a> Tangents<'a> {
     /// The base's signal alone, DN.
     pub fn base(&self, take: usize, index: usize) -> PerPixel {
         let moments = &self.data.takes[take].moments;
-        expose(&self.chains[take].base, moments[index], Moment::before(index, |index| moments[index]), None)
-            .signal_dn
+        let before = Moment::before(index, |index| moments[index]);
+        expose(&self.chains[take].base, moments[index], before, Memory::default()).signal_dn
     }
 
     /// Frame number `index` of recording `take`.
@@ -159,16 +159,17 @@ impl<'a> Tangents<'a> {
         let moment = moments[index];
         let chains = &self.chains[take];
         let before = Moment::before(index, |index| moments[index]);
-        let Exposure { signal_dn: base, waveform, .. } = expose(&chains.base, moment, before, None);
+        let Exposure { signal_dn: base, waveform, paths, .. } =
+            expose(&chains.base, moment, before, Memory::default());
         // Most of what is tried leaves the phases as they are.
-        let expose = |chain: &Chain, moment| expose(chain, moment, before, waveform.clone()).signal_dn;
+        let memory = Memory { waveform, paths, ..Memory::default() };
+        let expose = |chain: &Chain, moment| expose(chain, moment, before, memory.clone()).signal_dn;
         let ambient = chains.base.pixels.ambient_dn.clone();
         let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
         let position = difference(&expose(&chains.base, moved), &base, POSITION_STEP_M);
         let looks_back = chains.looks_back || chains.base.looks_back();
         let remembered = looks_back.then(|| chains.base.remember(before, &[]));
-        let memory = Memory { before: remembered, waveform: waveform.clone(), ..Memory::default() };
-        let stations = chains.base.stations(moment, memory);
+        let stations = chains.base.stations(moment, Memory { before: remembered, ..memory.clone() });
         let of_own = |(chain, step, place): &(Chain, f64, Place)| {
             // What was in the frame before depends on these numbers, too.
             if chain.looks_back() {
@@ -202,8 +203,8 @@ impl<'a> Tangents<'a> {
     }
 }
 
-/// The frame of `chain` at `moment`, after one of the frames `before`, with the `waveform` where it is at hand.
-fn expose(chain: &Chain, moment: Moment, before: [Moment; 2], waveform: Option<Arc<Waveform>>) -> Exposure {
+/// The frame of `chain` at `moment`, after one of the frames `before`, with what is at hand in `memory`.
+fn expose(chain: &Chain, moment: Moment, before: [Moment; 2], memory: Memory) -> Exposure {
     let before = chain.looks_back().then(|| chain.remember(before, &[]));
-    chain.expose(moment, Memory { before, waveform, ..Memory::default() })
+    chain.expose(moment, Memory { before, ..memory })
 }

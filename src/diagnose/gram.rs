@@ -63,10 +63,12 @@ pub struct Noise {
 
 impl Noise {
     /// One over the variance.
+    #[inline(always)]
     pub fn weight(&self, signal_dn: f64) -> f64 {
         1.0 / self.variance(signal_dn)
     }
 
+    #[inline(always)]
     fn variance(&self, signal_dn: f64) -> f64 {
         let signal_dn = signal_dn.max(0.0);
         self.floor + signal_dn * (self.slope + signal_dn * self.square)
@@ -99,15 +101,18 @@ const WINSOR: f64 = 4.0;
 pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise) -> (Vec<f64>, Vec<f64>) {
     let pixels = data.pixels();
     let signal = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
-    let whitened = |(&measured, &base): (&f32, &f64)| {
-        let measured = f64::from(measured);
-        if measured.is_nan() {
-            return (0.0, 0.0);
-        }
-        let root = noise.weight(base).sqrt();
-        (root, (root * (measured - base)).clamp(-WINSOR, WINSOR))
-    };
-    signal.iter().zip(base).map(whitened).unzip()
+    pulp::Arch::new().dispatch(|| {
+        let root = |(measured, &base): (&f32, &f64)| {
+            if measured.is_nan() { 0.0 } else { noise.weight(base).sqrt() }
+        };
+        let roots: Vec<f64> = signal.iter().zip(base).map(root).collect();
+        let residual = |((&measured, base), root): ((&f32, &f64), &f64)| match *root > 0.0 {
+            true => (root * (f64::from(measured) - base)).clamp(-WINSOR, WINSOR),
+            false => 0.0,
+        };
+        let residuals = signal.iter().zip(base).zip(&roots).map(residual).collect();
+        (roots, residuals)
+    })
 }
 
 impl Gram {

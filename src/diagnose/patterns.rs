@@ -132,5 +132,6 @@ fn factor(pairs: &[(&[f64], &[f64])]) -> Option<f64> {
 /// The difference of a `changed` frame from `base`, over the `step` that made it.
 pub fn difference(changed: &[f64], base: &[f64], step: f64) -> Vec<f64> {
     let per = step.recip();
-    changed.iter().zip(base).map(|(changed, base)| (changed - base) * per).collect()
+    pulp::Arch::new()
+        .dispatch(|| changed.iter().zip(base).map(|(changed, base)| (changed - base) * per).collect())
 }

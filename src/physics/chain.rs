@@ -28,6 +28,8 @@ pub struct Memory {
     pub before: Option<Before>,
     /// The waveform at phases that the frame's may be, where it is at hand.
     pub waveform: Option<Arc<Waveform>>,
+    /// The same of light that comes by other ways.
+    pub paths: Vec<Arc<Waveform>>,
     /// Draws from the standard normal distribution for this frame, one for each of [`Chain::effects`], in its order; where there are none, 0.
     pub deviates: Vec<f64>,
     /// Draws for its pixels; empty where no effect needs any.
@@ -81,9 +83,9 @@ impl Chain {
     }
 
     fn begin(&self, moment: Moment, memory: Memory) -> Exposure {
-        let Memory { before, waveform, deviates, pixel_deviates, noisy } = memory;
+        let Memory { before, waveform, paths, deviates, pixel_deviates, noisy } = memory;
         let exposure = Exposure::new(moment, &self.pixels, self.included, &self.correlation);
-        Exposure { before, waveform, deviates, pixel_deviates, noisy, ..exposure }
+        Exposure { before, waveform, paths, deviates, pixel_deviates, noisy, ..exposure }
     }
 
     /// Cuts low bits off noisy codes, where the camera's arithmetic does.

@@ -103,6 +103,8 @@ pub struct Exposure {
     pub frequency_hz: f64,
     /// Phase of the demodulation against the light: step and offset, rad.
     pub angle_rad: f64,
+    /// How light falls off, 1 / m², with the place for which that was looked up, m, and whether the light was on: these pixels' ranges do not change.
+    pub falloff: ((f64, bool), PerPixel),
     /// Radial range, m.
     pub range_m: PerPixel,
     /// Phase, rad: of the range, and the pixel's own.
@@ -123,6 +125,8 @@ pub struct Exposure {
     pub before: Option<Before>,
     /// The waveform at the pixels' phases, as it was looked up last: it is looked up again only where something has changed.
     pub waveform: Option<Arc<Waveform>>,
+    /// The same of light that came by other ways.
+    pub paths: Vec<Arc<Waveform>>,
     /// Draws from the standard normal distribution for this frame, one for each of the chain's effects.
     pub deviates: Vec<f64>,
     /// That of the effect that acts just now; 0 where there is none.
@@ -147,6 +151,7 @@ impl Exposure {
             falloff_share: f64::from(u8::from(included.inverse_square_falloff)),
             frequency_hz: moment.frequency_hz,
             angle_rad: moment.offset_rad + moment.step_rad,
+            falloff: ((f64::NAN, false), PerPixel::default()),
             range_m: PerPixel::default(),
             phase_rad: PerPixel::default(),
             amplitude_dn: PerPixel::default(),
@@ -157,6 +162,7 @@ impl Exposure {
             arrived_dn: PerPixel::default(),
             before: None,
             waveform: None,
+            paths: Vec::new(),
             deviates: Vec::new(),
             deviate: 0.0,
             noisy: false,
@@ -231,9 +237,13 @@ impl Exposure {
         let position_m = self.position_m + self.falloff_share * self.way_m();
         let (pixels, lit) = (&self.pixels, f64::from(u8::from(self.moment.lit)));
         pulp::Arch::new().dispatch(|| {
-            let shares: Vec<f64> =
-                ranges_m(pixels, position_m).iter().map(|range_m| lit / (range_m * range_m)).collect();
-            let times = |of: &[f64]| of.iter().zip(&shares).map(|(light, share)| light * share).collect();
+            if self.falloff.0 != (position_m, self.moment.lit) {
+                let share = |range_m: &f64| lit / (range_m * range_m);
+                let shares = ranges_m(pixels, position_m).iter().map(share).collect();
+                self.falloff = ((position_m, self.moment.lit), shares);
+            }
+            let shares = &*self.falloff.1;
+            let times = |of: &[f64]| of.iter().zip(shares).map(|(light, share)| light * share).collect();
             self.amplitude_dn = times(&pixels.amplitude_1m_dn);
             self.constant_dn = times(&pixels.constant_1m_dn);
         });
@@ -264,8 +274,17 @@ impl Exposure {
     }
 
     /// Adds light that comes by another way: `amplitude_dn` and `phase_rad` a pixel, with the same waveform.
-    pub fn add_path(&mut self, amplitude_dn: &[f64], phase_rad: &[f64]) {
-        self.correlation.add(amplitude_dn, phase_rad, self.angle_rad, &mut self.signal_dn);
+    pub fn add_path(&mut self, amplitude_dn: &[f64], phase_rad: &PerPixel) {
+        let is_it = |known: &&Arc<Waveform>| known.is_of(&self.correlation, phase_rad, self.angle_rad);
+        let known = self.paths.iter().find(is_it).cloned();
+        let path = known.unwrap_or_else(|| {
+            let path = Arc::new(Waveform::of(&self.correlation, phase_rad, self.angle_rad));
+            self.paths.push(Arc::clone(&path));
+            path
+        });
+        for ((sum, amplitude), relative) in self.signal_dn.iter_mut().zip(amplitude_dn).zip(path.relative()) {
+            *sum += amplitude * relative;
+        }
     }
 }
 

@@ -45,5 +45,5 @@ fn act(values: &[f64], exposure: &mut Exposure) {
             exposure.phase_rad[pixel] + phase_rad((back_m - range_m) / 2.0, exposure.frequency_hz);
         signal_dn[pixel] += part * exposure.constant_dn[pixel];
     }
-    exposure.add_path(&amplitudes, &phases);
+    exposure.add_path(&amplitudes, &phases.into());
 }
