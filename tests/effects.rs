@@ -56,7 +56,7 @@ fn memory(chain: &Chain, deviate: f64) -> Memory {
         before: Some(Before { evenly_dn: before_dn.clone(), again_dn: before_dn }),
         deviates: vec![deviate; chain.effects().len()],
         pixel_deviates: Draws::of(2, 1).normal(pixels).iter().map(|d| deviate * d).collect(),
-        waveform: None,
+        ..Memory::default()
     }
 }
 
