@@ -22,8 +22,8 @@ pub struct Column {
 
 /// How a column differs from the base, and over what the difference is divided.
 enum Change {
-    /// Another chain.
-    Chain(Box<Chain>, f64),
+    /// Another chain, which differs from a place on.
+    Chain { chain: Box<Chain>, step: f64, place: Place },
     /// One more effect, by a small step or a finite one.
     More { effect: Active, step: f64, is_finite: bool },
 }
@@ -130,7 +130,8 @@ impl<'a> Tangents<'a> {
                     let place =
                         fitted[..column.piece].iter().filter(|piece| piece.takes.contains(&take)).count();
                     changed[place].values = values;
-                    Some(Change::Chain(Box::new(with(Arc::clone(pixels), changed)), step))
+                    let chain = Box::new(with(Arc::clone(pixels), changed));
+                    Some(Change::Chain { chain, step, place: piece.effect.place })
                 } else {
                     let effect = Active { effect: piece.effect, values };
                     Some(Change::More { effect, step, is_finite: piece.finite })
@@ -169,7 +170,8 @@ impl<'a> Tangents<'a> {
         let position = difference(&expose(&chains.base, moved), &base, POSITION_STEP_M);
         let looks_back = chains.looks_back || chains.base.looks_back();
         let remembered = looks_back.then(|| chains.base.remember(before, &[]));
-        let stations = chains.base.stations(moment, Memory { before: remembered, ..memory.clone() });
+        let start = chains.base.begin(moment, Memory { before: remembered, ..memory.clone() });
+        let stations = chains.base.stations(&start);
         let of_own = |(chain, step, place): &(Chain, f64, Place)| {
             // What was in the frame before depends on these numbers, too.
             if chain.looks_back() {
@@ -181,12 +183,14 @@ impl<'a> Tangents<'a> {
             difference(&exposure.signal_dn, &base, *step)
         };
         let own = chains.own.each_ref().map(of_own);
-        let mut patterns = Patterns::new(&chains.base, &base, stations);
+        let mut patterns = Patterns::new(&chains.base, &base, start, stations);
         for (number, change) in chains.columns.iter().enumerate() {
             match change {
-                Some(Change::Chain(chain, step)) => {
+                // What was in the frame before may depend on this number, too.
+                Some(Change::Chain { chain, step, .. }) if chain.looks_back() => {
                     patterns.acting.column(number, difference(&expose(chain, moment), &base, *step));
                 }
+                Some(Change::Chain { chain, step, place }) => patterns.other(number, chain, *step, *place),
                 Some(Change::More { effect, step, is_finite }) => {
                     patterns.more(number, effect, *step, *is_finite);
                 }

@@ -26,7 +26,8 @@ const ROUNDING: f64 = 1e-12;
 pub struct Patterns<'a> {
     chain: &'a Chain,
     base: &'a [f64],
-    /// The frame as it is when each place has been passed.
+    /// The frame as it is before any place, and when each has been passed.
+    start: Exposure,
     stations: Vec<Exposure>,
     known: Vec<((Place, Change), usize)>,
     /// The columns.
@@ -34,9 +35,9 @@ pub struct Patterns<'a> {
 }
 
 impl<'a> Patterns<'a> {
-    /// None yet, of a frame that is `base`, and which has passed these `stations` of the `chain`.
-    pub fn new(chain: &'a Chain, base: &'a [f64], stations: Vec<Exposure>) -> Self {
-        Self { chain, base, stations, known: Vec::new(), acting: Acting::default() }
+    /// None yet, of a frame that is `base`, and which from its `start` has passed these `stations` of the `chain`.
+    pub fn new(chain: &'a Chain, base: &'a [f64], start: Exposure, stations: Vec<Exposure>) -> Self {
+        Self { chain, base, start, stations, known: Vec::new(), acting: Acting::default() }
     }
 
     /// Column `number`: what one more effect does by a `step` of one of its numbers, over that step.
@@ -45,25 +46,44 @@ impl<'a> Patterns<'a> {
         let station = &self.stations[place as usize];
         let mut exposure = station.clone();
         more.effect.act_on(&more.values, &mut exposure);
-        if exposure.stands_as(station) {
-            return;
-        }
         let changes = if is_finite { None } else { changes(&exposure, station) };
+        if !exposure.stands_as(station) {
+            self.add(number, self.chain, exposure, place, step, changes);
+        }
+    }
+
+    /// Column `number`: what another chain does, which differs from this one from `place` on by a `step` of one of its numbers, over that step.
+    pub fn other(&mut self, number: usize, other: &Chain, step: f64, place: Place) {
+        let mut exposure = match (place as usize).checked_sub(1) {
+            Some(before) => self.stations[before].clone(),
+            None => self.start.clone(),
+        };
+        other.pass(&mut exposure, place);
+        let station = &self.stations[place as usize];
+        let changes = changes(&exposure, station);
+        if !exposure.stands_as(station) {
+            self.add(number, other, exposure, place, step, changes);
+        }
+    }
+
+    /// Column `number`: what becomes in `chain` of a frame that was changed at `place`, by these `changes` if it is they, over the `step` that made it.
+    fn add(
+        &mut self,
+        number: usize,
+        chain: &Chain,
+        exposure: Exposure,
+        place: Place,
+        step: f64,
+        changes: Option<Vec<(Change, f64)>>,
+    ) {
         let Some(changes) = changes else {
-            let values = self.end(exposure, place, step);
-            self.acting.column(number, values);
+            self.acting.column(number, end(chain, exposure, place, self.base, step));
             return;
         };
         for (change, by) in changes {
             let pattern = self.pattern(place, change);
             self.acting.share(number, pattern, by / step);
         }
-    }
-
-    /// What is left of a frame that was changed at `place`, over the `step` by which it was.
-    fn end(&self, mut exposure: Exposure, place: Place, step: f64) -> Vec<f64> {
-        self.chain.resume(&mut exposure, place);
-        difference(&exposure.signal_dn, self.base, step)
     }
 
     fn pattern(&mut self, place: Place, change: Change) -> usize {
@@ -86,11 +106,17 @@ impl<'a> Patterns<'a> {
                 LIGHT_STEP
             }
         };
-        let values = self.end(exposure, place, step);
+        let values = end(self.chain, exposure, place, self.base, step);
         let number = self.acting.pattern(values);
         self.known.push(((place, change), number));
         number
     }
+}
+
+/// What becomes in `chain` of a frame that was changed at `place`, less the `base`, over the `step` by which it was.
+fn end(chain: &Chain, mut exposure: Exposure, place: Place, base: &[f64], step: f64) -> Vec<f64> {
+    chain.resume(&mut exposure, place);
+    difference(&exposure.signal_dn, base, step)
 }
 
 /// By what `exposure` differs from `station`, if that is scalars, or a factor of all light.

@@ -65,14 +65,19 @@ impl Chain {
         exposure
     }
 
-    /// The frame at `moment` as it is when each place has been passed, in the order of [`Place::ALL`].
-    pub fn stations(&self, moment: Moment, memory: Memory) -> Vec<Exposure> {
-        let mut exposure = self.begin(moment, memory);
+    /// A frame from its `start` as it is when each place has been passed, in the order of [`Place::ALL`].
+    pub fn stations(&self, start: &Exposure) -> Vec<Exposure> {
+        let mut exposure = start.clone();
         let station = |place: Place| {
-            self.run_between(&mut exposure, place, place);
+            self.pass(&mut exposure, place);
             exposure.clone()
         };
         Place::ALL.into_iter().map(station).collect()
+    }
+
+    /// Takes `exposure`, which has come to `place`, past it.
+    pub fn pass(&self, exposure: &mut Exposure, place: Place) {
+        self.run_between(exposure, place, place);
     }
 
     /// Takes `exposure`, which has passed `last`, to the end of the chain.
@@ -82,7 +87,8 @@ impl Chain {
         }
     }
 
-    fn begin(&self, moment: Moment, memory: Memory) -> Exposure {
+    /// The frame at `moment` before it has come to any place.
+    pub fn begin(&self, moment: Moment, memory: Memory) -> Exposure {
         let Memory { before, waveform, paths, deviates, pixel_deviates, noisy } = memory;
         let exposure = Exposure::new(moment, &self.pixels, self.included, &self.correlation);
         Exposure { before, waveform, paths, deviates, pixel_deviates, noisy, ..exposure }
