@@ -138,7 +138,7 @@ fn fit_from(
         let is_there = here.is_stuck || here.round.gain < enough;
         if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
     };
-    descend(start, ITERATIONS, &step, &|model| model.round.left()).end()
+    descend(start, ITERATIONS, enough, &step, &|model| model.round.left()).end()
 }
 
 /// A model, and the normal equations around it.
