@@ -95,7 +95,8 @@ impl Block {
 
     /// With `rows` of a frame of number `set`, in which the columns `shared` act, and `own` ones that are counted from `first` on.
     ///
-    /// Products are made in single precision, a frame at a time, and summed in double: what each of them rounds off is another.
+    /// Shares come column after column. Products are made in single precision, of a frame with itself, and of a few frames with the pixels' own numbers, and
+    /// then summed in double: what each of them rounds off is another.
     pub fn add(&mut self, set: usize, rows: &Rows, shared: &Acting, own: &Acting, first: usize) {
         let (pixels, last) = (rows.roots.len(), self.full.nrows() - 1);
         // The patterns, the residual, and the set's position.
@@ -105,8 +106,10 @@ impl Block {
         let mut values = std::mem::take(&mut self.values);
         values.resize(pixels * (position + 1), 0.0);
         let patterns = shared.patterns.iter().chain(&own.patterns);
-        for (values, pattern) in values.chunks_exact_mut(pixels).zip(patterns) {
-            pulp::Arch::new().dispatch(|| times(rows.roots, pattern, values));
+        let mut sizes = vec![1.0; position + 1];
+        for ((values, size), pattern) in values.chunks_exact_mut(pixels).zip(&mut sizes).zip(patterns) {
+            debug_assert_eq!(pattern.len(), pixels);
+            pulp::Arch::new().dispatch(|| *size = times(rows.roots, pattern, values));
         }
         for (number, of) in [(residual, rows.residual), (position, &rows.position[..])] {
             let values = &mut values[pixels * number..pixels * (number + 1)];
@@ -114,7 +117,10 @@ impl Block {
         }
         let own = own.shares.iter().map(|share| share.after(first, before));
         let of_residual = Share { column: last, pattern: residual, factor: 1.0 };
-        let shares: Vec<Share> = shared.shares.iter().copied().chain(own).chain([of_residual]).collect();
+        let shares = shared.shares.iter().copied().chain(own).chain([of_residual]);
+        let sized = |share: Share| Share { factor: share.factor * sizes[share.pattern], ..share };
+        let shares: Vec<Share> = shares.map(sized).collect();
+        debug_assert!(shares.is_sorted_by_key(|share| share.column));
         self.wait(rows, &values[..pixels * position], &shares);
         let product = squared(&values, pixels);
         let columns: Vec<&[Share]> = shares.chunk_by(|a, b| a.column == b.column).collect();
@@ -167,12 +173,19 @@ impl Block {
     }
 }
 
-/// Products of two numbers a pixel, in single precision.
+/// Sizes of patterns that are squared and summed in single precision as they are.
+const SIZES: std::ops::Range<f64> = 1e-9..1e9;
+
+/// Products of the roots with a pattern, in single precision, over the size that is given back: 1 where single precision knows such numbers well.
 #[inline(always)]
-fn times(a: &[f64], b: &[f64], product: &mut [f32]) {
-    for ((product, a), b) in product.iter_mut().zip(a).zip(b) {
-        *product = (a * b) as f32;
+fn times(roots: &[f64], pattern: &[f64], product: &mut [f32]) -> f64 {
+    let greatest = pattern.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
+    let size = if greatest == 0.0 || SIZES.contains(&greatest) { 1.0 } else { greatest };
+    let per = size.recip();
+    for ((product, root), value) in product.iter_mut().zip(roots).zip(pattern) {
+        *product = (root * value * per) as f32;
     }
+    size
 }
 
 /// The products of all rows of so many `pixels` with each other.
@@ -262,15 +275,16 @@ mod tests {
         Draws::of(seed, 3).normal(PIXELS)
     }
 
-    /// Three columns that share two patterns, others that have their own, in frames of two sets: the sums are those of the columns written out, but for
-    /// rounding.
-    #[test]
-    fn shares_of_patterns_are_columns_written_out() {
-        let (mut block, first) = (Block::empty(PIXELS, 5, 2), 2);
-        let (mut full, mut mixed) = (DMatrix::<f64>::zeros(6, 6), DMatrix::<f64>::zeros(OWN * PIXELS, 6));
-        let mut position = vec![DVector::<f64>::zeros(6); 2];
-        for frame in 0..4 {
-            let seed = |n: u64| draws(100 * frame + n);
+    /// Columns that share two patterns, and `many` others that have their own, in frames of two sets: the sums are those of the columns written out, but for
+    /// rounding. One of the patterns is `large`.
+    fn is_written_out(many: usize, large: f64) {
+        let (first, count) = (2, 4 + many);
+        let mut block = Block::empty(PIXELS, count, 2);
+        let (mut full, mut mixed) =
+            (DMatrix::<f64>::zeros(count + 1, count + 1), DMatrix::<f64>::zeros(OWN * PIXELS, count + 1));
+        let mut position = vec![DVector::<f64>::zeros(count + 1); 2];
+        for frame in 0..FRAMES {
+            let seed = |n: usize| draws(1000 * frame as u64 + n as u64);
             let (roots, residual) = (seed(1).iter().map(|v| v.abs()).collect::<Vec<_>>(), seed(2));
             let rows = Rows {
                 own: [seed(3), seed(4), seed(5), seed(6)],
@@ -279,25 +293,29 @@ mod tests {
                 residual: &residual,
             };
             let (mut shared, mut own) = (Acting::default(), Acting::default());
-            let [a, b, c, d] = [8, 9, 10, 11].map(seed);
+            let [a, b, c] = [8, 9, 10].map(seed);
+            let c: Vec<f64> = c.iter().map(|c| large * c).collect();
+            let others: Vec<Vec<f64>> = (0..many).map(|n| seed(11 + n)).collect();
             shared.column(1, a.clone());
             let (of_b, of_c) = (own.pattern(b.clone()), own.pattern(c.clone()));
             own.share(0, of_b, 2.0);
-            own.share(0, of_c, -0.5);
+            own.share(0, of_c, -0.5 / large);
             own.share(1, of_b, frame as f64);
-            own.column(2, d.clone());
-            let set = frame as usize / 2;
-            block.position[set].resize_vertically_mut(6, 0.0);
+            for (number, other) in others.iter().enumerate() {
+                own.column(2 + number, other.clone());
+            }
+            let set = frame % 2;
+            block.position[set].resize_vertically_mut(count + 1, 0.0);
             block.add(set, &rows, &shared, &own, first);
             let sum =
                 |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..PIXELS).map(|p| roots[p] * of(p)).collect() };
-            let columns = [
+            let mut columns = vec![
                 (1, sum(&|p| a[p])),
-                (2, sum(&|p| 2.0 * b[p] - 0.5 * c[p])),
+                (2, sum(&|p| 2.0 * b[p] - 0.5 / large * c[p])),
                 (3, sum(&|p| frame as f64 * b[p])),
-                (4, sum(&|p| d[p])),
-                (5, residual.clone()),
+                (count, residual.clone()),
             ];
+            columns.extend(others.iter().enumerate().map(|(n, other)| (4 + n, sum(&|p| other[p]))));
             for (number, column) in &columns {
                 for (other, with) in &columns {
                     full[(*number, *other)] += column.iter().zip(with).map(|(x, y)| x * y).sum::<f64>();
@@ -309,9 +327,29 @@ mod tests {
             }
         }
         block.settle();
-        assert!((&block.full - full.lower_triangle()).amax() < 1e-4 * full.amax());
-        assert!((&block.mixed - &mixed).amax() < 1e-5 * mixed.amax());
-        assert!(block.position.iter().zip(&position).all(|(a, b)| (a - b).amax() < 1e-4 * b.amax()));
+        assert!((&block.full - full.lower_triangle()).amax() < ROUNDING * full.amax(), "{many}");
+        assert!((&block.mixed - &mixed).amax() < ROUNDING * mixed.amax(), "{many}");
+        let is_same = |(a, b): (&DVector<f64>, &DVector<f64>)| (a - b).amax() < ROUNDING * b.amax();
+        assert!(block.position.iter().zip(&position).all(is_same), "{many}");
         assert!(full.amax() > 1.0 && block.full.column(0).amax() == 0.0);
+    }
+
+    const FRAMES: usize = 40;
+    const ROUNDING: f64 = 2e-6;
+
+    /// Few rows, some, and more than a panel has; and more frames than wait for each other.
+    #[test]
+    fn shares_of_patterns_are_columns_written_out() {
+        for many in [1, 15, 150] {
+            is_written_out(many, 1.0);
+        }
+        assert!(FRAMES * 150 * PIXELS > WAITING);
+    }
+
+    #[test]
+    fn a_parameter_may_have_any_unit() {
+        for large in [1e-30, 1e25] {
+            is_written_out(1, large);
+        }
     }
 }

@@ -160,18 +160,18 @@ impl<'a> Tangents<'a> {
         let moment = moments[index];
         let chains = &self.chains[take];
         let before = Moment::before(index, |index| moments[index]);
-        let Exposure { signal_dn: base, waveform, paths, .. } =
-            expose(&chains.base, moment, before, Memory::default());
+        let looks_back = chains.looks_back || chains.base.looks_back();
+        let remembered = looks_back.then(|| chains.base.remember(before, &[]));
+        let start = chains.base.begin(moment, Memory { before: remembered, ..Memory::default() });
+        let stations = chains.base.stations(&start);
+        let end = &stations[Place::Readout as usize];
+        let base = end.signal_dn.clone();
         // Most of what is tried leaves the phases as they are.
-        let memory = Memory { waveform, paths, ..Memory::default() };
+        let memory = Memory { waveform: end.waveform.clone(), paths: end.paths.clone(), ..Memory::default() };
         let expose = |chain: &Chain, moment| expose(chain, moment, before, memory.clone()).signal_dn;
         let ambient = chains.base.pixels.ambient_dn.clone();
         let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
         let position = difference(&expose(&chains.base, moved), &base, POSITION_STEP_M);
-        let looks_back = chains.looks_back || chains.base.looks_back();
-        let remembered = looks_back.then(|| chains.base.remember(before, &[]));
-        let start = chains.base.begin(moment, Memory { before: remembered, ..memory.clone() });
-        let stations = chains.base.stations(&start);
         let of_own = |(chain, step, place): &(Chain, f64, Place)| {
             // What was in the frame before depends on these numbers, too.
             if chain.looks_back() {
@@ -179,6 +179,7 @@ impl<'a> Tangents<'a> {
             }
             let mut exposure = stations[*place as usize].clone();
             exposure.pixels = Arc::clone(&chain.pixels);
+            (exposure.waveform, exposure.paths) = (memory.waveform.clone(), memory.paths.clone());
             chain.resume(&mut exposure, *place);
             difference(&exposure.signal_dn, &base, *step)
         };

@@ -106,9 +106,10 @@ pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise
             if measured.is_nan() { 0.0 } else { noise.weight(base).sqrt() }
         };
         let roots: Vec<f64> = signal.iter().zip(base).map(root).collect();
-        let residual = |((&measured, base), root): ((&f32, &f64), &f64)| match *root > 0.0 {
-            true => (root * (f64::from(measured) - base)).clamp(-WINSOR, WINSOR),
-            false => 0.0,
+        let residual = |((&measured, base), root): ((&f32, &f64), &f64)| match *root == 0.0 {
+            true => 0.0,
+            // What is no number stays none.
+            false => (root * (f64::from(measured) - base)).clamp(-WINSOR, WINSOR),
         };
         let residuals = signal.iter().zip(base).zip(&roots).map(residual).collect();
         (roots, residuals)

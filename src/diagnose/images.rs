@@ -2,12 +2,15 @@
 
 use super::data::Data;
 use super::fit::Fit;
-use super::lines::{FLICKER, FLICKER_HZ, MAINS_OFF, TWICE_MAINS_HZ};
+use super::lines::{FLICKER, FLICKER_HZ, is_mains};
 use crate::physics::cos_sin;
+use nalgebra::{Matrix3, Vector2};
 use std::f64::consts::TAU;
 
 /// An image of a line is stated where its odds beside the line are greater.
 const LIKELY_ODDS: f64 = 0.05;
+/// So many are stated at most.
+const STATED: usize = 3;
 
 /// Numbers of a line: those of its cosine and its sine, and its frequency, Hz.
 type Line = [f64; 3];
@@ -32,10 +35,10 @@ impl Image {
 pub fn images(data: &Data, fit: &Fit) -> Vec<Image> {
     let lines: Vec<Seen> = (0..fit.pieces.len()).filter_map(|piece| Seen::of(data, fit, piece)).collect();
     let Some(first) = lines.first() else { return Vec::new() };
-    let image = |frequency_hz: f64| {
+    let image = |(frequency_hz, sign): (f64, f64)| {
         let of = |seen: &Seen| {
-            // Recordings' own frequencies are apart by what noise makes of them.
-            let apart = seen.line[2] - first.line[2];
+            // Recordings' own frequencies are apart by what noise makes of them; an image may be a mirror's.
+            let apart = sign * (seen.line[2] - first.line[2]);
             let (line, unlike) = seen_at(&seen.times_s, seen.line, frequency_hz + apart);
             (seen.piece, line, unlike * seen.chi2)
         };
@@ -47,16 +50,21 @@ pub fn images(data: &Data, fit: &Fit) -> Vec<Image> {
         }
     };
     let all = frequencies(first.line[2], first.period_s).into_iter();
-    all.filter(|other| (other - first.line[2]).abs() > first.sigma_hz).map(image).collect()
+    all.filter(|(other, _)| (other - first.line[2]).abs() > first.sigma_hz).map(image).collect()
 }
 
 /// What a sentence about a line says of its `images` that are likely, too.
 pub fn also_seen(images: &[Image]) -> String {
-    let likely = images.iter().filter(|image| image.odds > LIKELY_ODDS);
-    let all: Vec<String> = likely.map(|image| format!("{:.2} Hz", image.frequency_hz())).collect();
+    let mut likely: Vec<&Image> = images.iter().filter(|image| image.odds > LIKELY_ODDS).collect();
+    likely.sort_by(|a, b| b.odds.total_cmp(&a.odds));
+    let mut all: Vec<String> =
+        likely.iter().take(STATED).map(|image| format!("{:.2} Hz", image.frequency_hz())).collect();
+    if likely.len() > STATED {
+        all.push(format!("one of {} other frequencies", likely.len() - STATED));
+    }
     match all.len() {
         0 => String::new(),
-        _ => format!(" At the times of these frames {} would look the same.", all.join(" or ")),
+        _ => format!(" At the times of these frames {} would look nearly the same.", all.join(" or ")),
     }
 }
 
@@ -86,39 +94,40 @@ impl Seen {
     fn of(data: &Data, fit: &Fit, number: usize) -> Option<Self> {
         let piece = fit.pieces.get(number).filter(|piece| piece.effect.name == FLICKER)?;
         let line = Line::try_from(piece.values.get(..3)?).ok()?;
-        let sigma = |parameter: usize| {
-            let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
-            column.map_or(0.0, |column| fit.sigma(column))
-        };
-        let square = |parameter: usize| {
-            let sigma = sigma(parameter);
-            if sigma > 0.0 { (line[parameter] / sigma).powi(2) } else { 0.0 }
-        };
+        let column =
+            |parameter: usize| fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
+        // Of a line that is held somewhere nothing is known.
+        let columns = [column(0)?, column(1)?, column(2)?];
+        let covariance = Matrix3::from_fn(|a, b| fit.covariance[(columns[a], columns[b])]);
+        let information = covariance.try_inverse()?;
+        // With the frequency as it is.
+        let strength = Vector2::new(line[0], line[1]);
+        let chi2 = strength.dot(&(information.fixed_view::<2, 2>(0, 0) * strength));
         let moments = || piece.takes.iter().flat_map(|&take| &data.takes[take].moments);
         Some(Self {
             piece: number,
             line,
-            sigma_hz: sigma(2),
-            chi2: square(0) + square(1),
+            sigma_hz: covariance[(2, 2)].sqrt(),
+            chi2,
             times_s: moments().map(|moment| moment.time_s).collect(),
             period_s: moments().next()?.frame_period_s,
         })
     }
 }
 
-/// Frequencies of lamps, Hz, that frames which are taken every so many seconds see as `frequency_hz`; twice the mains' only, if it is that.
-fn frequencies(frequency_hz: f64, period_s: f64) -> Vec<f64> {
+/// Frequencies of lamps, Hz, that frames which are taken every so many seconds see as `frequency_hz`, and with which sign they go with it; twice the mains'
+/// only, if it is that.
+fn frequencies(frequency_hz: f64, period_s: f64) -> Vec<(f64, f64)> {
     if period_s.is_nan() || period_s <= 0.0 {
         return Vec::new();
     }
-    let is_mains = |hz: f64| TWICE_MAINS_HZ.iter().any(|mains| (hz / mains - 1.0).abs() < MAINS_OFF);
     let (low, high) = FLICKER_HZ;
     let most = ((high + frequency_hz) * period_s).ceil() as i32;
     let folded = |k: i32| [1.0, -1.0].map(|sign| (f64::from(k) / period_s + sign * frequency_hz, (k, sign)));
     let all = (-most..=most).flat_map(folded).filter(|&(hz, way)| {
         (low..=high).contains(&hz) && way != (0, 1.0) && (!is_mains(frequency_hz) || is_mains(hz))
     });
-    all.map(|(hz, _)| hz).collect()
+    all.map(|(hz, (_, sign))| (hz, sign)).collect()
 }
 
 /// The line of frequency `hz` that is nearest to `line` at these times, and the share of it that it is unlike.
@@ -155,7 +164,11 @@ mod tests {
     #[test]
     fn frames_every_25_ms_see_lines_on_both_sides_of_a_hundred_hertz_alike() {
         let found = frequencies(100.02, 0.025);
-        assert!(found.len() == 1 && (found[0] - 99.98).abs() < 1e-9, "{found:?}");
+        assert!(found.len() == 1 && (found[0].0 - 99.98).abs() < 1e-9, "{found:?}");
+        // A mirror's: what is above one is below the other.
+        assert_eq!(found[0].1, -1.0);
+        let above = frequencies(100.05, 0.025)[0].0;
+        assert!((above - found[0].0 + 0.03).abs() < 1e-9, "{above}");
         let (line, unlike) = seen_at(&every(0.025), [0.3, 0.4, 100.02], 99.98);
         assert!(unlike < 1e-9 && (line[0].hypot(line[1]) - 0.5).abs() < 1e-9, "{line:?} {unlike}");
         // At every frame both are the same light.

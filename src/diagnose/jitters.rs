@@ -15,7 +15,7 @@ pub struct Frame {
     pub time: (f64, f64),
     /// Information that both share.
     pub shared: f64,
-    /// Number of its set, over all recordings.
+    /// Number of its set, among all that are looked at together.
     pub set: usize,
     /// The target's velocity, m/s.
     pub velocity_m_s: f64,

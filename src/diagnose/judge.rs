@@ -273,12 +273,12 @@ fn is_outvoted(baseline: &Location, found: &Found, named: &[Named], explained: f
     let numbers: usize = named.iter().map(|named| named.score.1).sum();
     let flickers = named.iter().any(|named| named.name == FLICKER);
     let outvotes = |coordinate: &Located| {
-        let is_swing = coordinate.looked > 1.0 && coordinate.coordinate == "time_s";
+        let is_swing = coordinate.looked > 1.0 && matches!(coordinate.coordinate, "time_s" | "set");
         let least = match coordinate.coordinate {
             // What is said of neighbours is what those effects do, roughly.
             "neighbours" if OF_OTHER_PIXELS.contains(&first.name) => f64::INFINITY,
             // A flicker swings.
-            "time_s" if flickers && is_swing => together + RIVAL_NATS,
+            _ if flickers && is_swing => together + RIVAL_NATS,
             _ => together - 1.0 - RIVAL_NATS * (named.len() as f64 - 1.0),
         };
         let (chi2, columns) = coordinate.chi2;

@@ -54,8 +54,13 @@ const CYCLES_M: (f64, f64) = (0.6, 250.0);
 const DRIFT_CYCLES: f64 = 3.0;
 /// The same where the line is twice the mains' frequency, which is known beforehand: Hz, and by what share it is off at most.
 const MAINS_DRIFT_CYCLES: f64 = 1.5;
-pub const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
+const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
 pub const MAINS_OFF: f64 = 2e-3;
+
+/// Whether a frequency, Hz, may be twice the mains'.
+pub fn is_mains(frequency_hz: f64) -> bool {
+    TWICE_MAINS_HZ.iter().any(|mains| (frequency_hz / mains - 1.0).abs() < MAINS_OFF)
+}
 
 impl Series {
     /// With one more frame.
@@ -154,8 +159,6 @@ impl Series {
 pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> Option<Line> {
     let Scan { low, step, powers } = Scan::of(groups, ends, false)?;
     let longest = longest(groups);
-    let is_mains =
-        |frequency: f64| TWICE_MAINS_HZ.iter().any(|mains| (frequency / mains - 1.0).abs() < MAINS_OFF);
     let is_drift = |number: usize| {
         let frequency = low + number as f64 * step;
         let cycles = if is_mains(frequency) { MAINS_DRIFT_CYCLES } else { DRIFT_CYCLES };

@@ -15,10 +15,10 @@ enum Change {
     Ambient,
 }
 
-/// Steps of the scalars, in their units: none is more than a thousandth of what matters.
-const SCALAR_STEPS: [f64; Exposure::SCALARS] = [1e-6, 1e-6, 1e-6, 1e-3, 1e-3, 1.0, 1e-5];
+/// Steps of the scalars, in their units. What comes after need not be smooth: a converter's error may have a period of some DN.
+const SCALAR_STEPS: [f64; Exposure::SCALARS] = [1e-6, 1e-6, 1e-6, 1e-5, 1e-5, 1.0, 1e-5];
 /// Relative step of the light.
-const LIGHT_STEP: f64 = 1e-3;
+const LIGHT_STEP: f64 = 1e-5;
 /// Two factors are the same where they differ by no more than rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -127,13 +127,7 @@ fn changes(exposure: &Exposure, station: &Exposure) -> Option<Vec<(Change, f64)>
     if exposure.arrays_stand_as(station) {
         return Some(changes);
     }
-    let same = Exposure {
-        amplitude_dn: station.amplitude_dn.clone(),
-        constant_dn: station.constant_dn.clone(),
-        ambient_dn: station.ambient_dn.clone(),
-        ..exposure.clone()
-    };
-    if !same.arrays_stand_as(station) {
+    if !exposure.stands_as_but_for_light(station) {
         return None;
     }
     let ambient = factor(&[(&exposure.ambient_dn, &station.ambient_dn)])?;
@@ -160,4 +154,171 @@ pub fn difference(changed: &[f64], base: &[f64], step: f64) -> Vec<f64> {
     let per = step.recip();
     pulp::Arch::new()
         .dispatch(|| changed.iter().zip(base).map(|(changed, base)| (changed - base) * per).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{practice_camera, sensor};
+    use crate::frames::Geometry;
+    use crate::physics::{Correlation, EFFECTS, Effect, Included, Memory, Moment, Stage};
+    use std::sync::Arc;
+
+    fn chain_of(effects: &[Active]) -> Chain {
+        let sensor = sensor(&practice_camera(Geometry { width: 8, height: 6 }));
+        let pixels = Arc::new(Stage::bench().pixels(&sensor, 5));
+        let included = Included { axial_motion: true, inverse_square_falloff: true };
+        Chain::new(pixels, Correlation::measured(), included, effects.to_vec())
+    }
+
+    fn moments() -> Vec<Moment> {
+        let of = |(frame, velocity_m_s, offset_rad, lit): (usize, f64, f64, bool)| Moment {
+            set: 2,
+            frame,
+            frames: 4,
+            time_s: 3.1 + frame as f64 * 0.025,
+            in_set_s: frame as f64 * 0.025,
+            frame_period_s: 0.025,
+            step_rad: frame as f64 * std::f64::consts::FRAC_PI_2,
+            offset_rad,
+            position_m: 2.1,
+            place_m: 2.1,
+            velocity_m_s,
+            frequency_hz: 30e6,
+            lit,
+        };
+        [(0, 0.0, 0.0, true), (1, 2.0, 1.0, true), (3, -1.0, 4.4, true), (2, 0.0, 0.3, false)]
+            .map(of)
+            .to_vec()
+    }
+
+    fn effect(name: &str) -> &'static Effect {
+        EFFECTS.iter().find(|effect| effect.name == name).unwrap()
+    }
+
+    /// What is fitted already: something at each place that makes a difference to what comes after.
+    fn fitted() -> Vec<Active> {
+        let of = |(name, values): (&str, &[f64])| {
+            let effect = effect(name);
+            let mut all = effect.off();
+            all[..values.len()].copy_from_slice(values);
+            Active { effect, values: all }
+        };
+        let all: [(&str, &[f64]); 5] = [
+            ("encoder_scale", &[0.01]),
+            ("phase_drift", &[0.05]),
+            ("illumination_drift", &[0.1]),
+            ("multipath_interference", &[0.1]),
+            ("intensity_nonlinearity", &[0.05]),
+        ];
+        all.map(of).to_vec()
+    }
+
+    /// What stands in `acting` of column 0, written out.
+    fn written_out(acting: &Acting, pixels: usize) -> Vec<f64> {
+        let mut values = vec![0.0; pixels];
+        for share in &acting.shares {
+            assert_eq!(share.column, 0);
+            let pattern = &acting.patterns[share.pattern];
+            values.iter_mut().zip(pattern).for_each(|(value, pattern)| *value += share.factor * pattern);
+        }
+        values
+    }
+
+    /// How many numbers `of` changes, each by `(effects with the change, column)`: the column is the change of the frame that `direct` chains show.
+    fn agrees(
+        name: &str,
+        moment: Moment,
+        chain: &Chain,
+        changed: &Chain,
+        step: f64,
+        acting: &Acting,
+    ) -> bool {
+        let memory = |chain: &Chain| Memory {
+            before: chain.looks_back().then(|| chain.remember([moment; 2], &[])),
+            ..Memory::default()
+        };
+        let [base, other] = [chain, changed].map(|chain| chain.expose(moment, memory(chain)).signal_dn);
+        let direct = difference(&other, &base, step);
+        let column = written_out(acting, base.len());
+        let greatest = direct.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        for (direct, column) in direct.iter().zip(&column) {
+            assert!((direct - column).abs() <= 2e-3 * greatest, "{name}: {direct} {column} of {greatest}");
+        }
+        greatest > 0.0
+    }
+
+    /// Numbers of an effect, strengths first, with the step that is small for each.
+    fn steps(effect: &Effect) -> Vec<(usize, f64)> {
+        let strengths = effect.parameters.iter().enumerate().filter(|(_, parameter)| !parameter.is_shape());
+        strengths.map(|(number, parameter)| (number, 1e-4 * parameter.typical)).collect()
+    }
+
+    #[test]
+    fn an_effects_column_is_what_it_does_to_the_frame() {
+        let chain = chain_of(&fitted());
+        let mut seen = std::collections::BTreeSet::new();
+        for effect in
+            EFFECTS.iter().filter(|effect| fitted().iter().all(|known| known.effect.name != effect.name))
+        {
+            for (moment, (number, step)) in moments()
+                .into_iter()
+                .flat_map(|moment| steps(effect).into_iter().map(move |step| (moment, step)))
+            {
+                let mut values = effect.off();
+                values[number] += step;
+                let more = Active { effect, values };
+                let changed = chain_of(&[fitted(), vec![more.clone()]].concat());
+                let before = changed.looks_back().then(|| chain.remember([moment; 2], &[]));
+                let start = chain.begin(moment, Memory { before, ..Memory::default() });
+                let base = chain.expose(moment, Memory::default()).signal_dn;
+                let mut patterns = Patterns::new(&chain, &base, start.clone(), chain.stations(&start));
+                patterns.more(0, &more, step, false);
+                if agrees(effect.name, moment, &chain, &changed, step, &patterns.acting) {
+                    seen.insert(effect.name);
+                }
+            }
+        }
+        // But for random effects, and those that begin at a size, all of them do something.
+        assert!(seen.len() + 8 >= EFFECTS.len() - fitted().len(), "{seen:?}");
+    }
+
+    #[test]
+    fn a_fitted_numbers_column_is_what_it_does_to_the_frame() {
+        let chain = chain_of(&fitted());
+        for (place, active) in fitted().iter().enumerate() {
+            for (moment, (number, step)) in moments()
+                .into_iter()
+                .flat_map(|moment| steps(active.effect).into_iter().map(move |step| (moment, step)))
+            {
+                let mut effects = fitted();
+                effects[place].values[number] += step;
+                let changed = chain_of(&effects);
+                let start = chain.begin(moment, Memory::default());
+                let base = chain.expose(moment, Memory::default()).signal_dn;
+                let mut patterns = Patterns::new(&chain, &base, start.clone(), chain.stations(&start));
+                patterns.other(0, &changed, step, active.effect.place);
+                agrees(active.effect.name, moment, &chain, &changed, step, &patterns.acting);
+            }
+        }
+    }
+
+    #[test]
+    fn what_scales_light_or_a_scalar_alone_shares_a_pattern() {
+        let chain = chain_of(&[]);
+        let moment = moments()[1];
+        let start = chain.begin(moment, Memory::default());
+        let base = chain.expose(moment, Memory::default()).signal_dn;
+        let mut patterns = Patterns::new(&chain, &base, start.clone(), chain.stations(&start));
+        for (column, name) in
+            ["phase_drift", "phase_step_scale", "illumination_drift", "lens_scatter"].iter().enumerate()
+        {
+            let effect = effect(name);
+            let mut values = effect.off();
+            values[0] += 1e-3;
+            patterns.more(column, &Active { effect, values }, 1e-3, false);
+        }
+        let shares: Vec<usize> = patterns.acting.shares.iter().map(|share| share.pattern).collect();
+        assert_eq!(shares, [0, 0, 1, 2]);
+    }
 }

@@ -6,6 +6,8 @@ use std::collections::BTreeMap;
 
 /// Standard deviations of the mean from which on errors are steady.
 const STEADY: f64 = 5.0;
+/// Of the errors' variance they have at least this share: a jitter of many frames may have a little of a mean, too.
+const SHARE: f64 = 0.1;
 /// Fewer sets do not tell how much a mean scatters.
 const LEAST_SETS: usize = 20;
 /// A frame's error counts as so many standard deviations at most.
@@ -51,22 +53,27 @@ pub fn is_steady(jitters: &Jitters, kind: usize, sigma: f64) -> bool {
     }
     let set = |(sum, weight, velocity_m_s): (f64, f64, f64)| Set { mean: sum / weight, weight, velocity_m_s };
     let sets: Vec<Set> = sets.into_values().map(set).collect();
-    kind.with.iter().any(|with| deviations(&sets, *with) > STEADY)
+    let weight: f64 = sets.iter().map(|set| set.weight).sum();
+    kind.with.iter().any(|with| {
+        let (deviations, explained) = explained(&sets, *with);
+        deviations > STEADY && explained > SHARE * sigma * sigma * weight
+    })
 }
 
-/// By how many standard deviations the errors of `sets` go with a function of the velocity.
-fn deviations(sets: &[Set], with: fn(f64) -> f64) -> f64 {
+/// By how many standard deviations the errors of `sets` go with a function of the velocity, and what of their squares, weighted, is explained by it.
+fn explained(sets: &[Set], with: fn(f64) -> f64) -> (f64, f64) {
     let sum = |of: &dyn Fn(&Set, f64) -> f64| -> f64 {
         sets.iter().map(|set| of(set, with(set.velocity_m_s))).sum()
     };
     let seen = sets.iter().filter(|set| with(set.velocity_m_s) != 0.0).count();
     if seen < LEAST_SETS {
-        return 0.0;
+        return (0.0, 0.0);
     }
     let information = sum(&|set, x| set.weight * x * x);
     let slope = sum(&|set, x| set.weight * x * set.mean) / information;
     let scatter = sum(&|set, x| (set.weight * x * (set.mean - slope * x)).powi(2)).sqrt();
-    if scatter > 0.0 { (slope * information / scatter).abs() } else { 0.0 }
+    let deviations = if scatter > 0.0 { (slope * information / scatter).abs() } else { 0.0 };
+    (deviations, slope * slope * information)
 }
 
 #[cfg(test)]
@@ -79,8 +86,12 @@ mod tests {
 
     /// Times of the frames of a hundred sets, which go to and fro: random ones, and those of `steady`, by the velocity.
     fn times(seed: u64, steady: impl Fn(f64) -> f64, reading: f64) -> Jitters {
+        of_sets(100, seed, steady, reading)
+    }
+
+    fn of_sets(sets: usize, seed: u64, steady: impl Fn(f64) -> f64, reading: f64) -> Jitters {
         let mut jitters = Jitters::default();
-        for set in 0..100 {
+        for set in 0..sets {
             let draws = Draws::of(seed, set as u64).normal(FRAMES + 1);
             let velocity_m_s = if set % 2 == 0 { 1.0 } else { -1.0 };
             for draw in &draws[..FRAMES] {
@@ -102,8 +113,27 @@ mod tests {
             assert!(!is_steady(&times(seed, |_| 0.0, 0.0), 1, SIGMA), "{seed}");
             // Nor is a jitter steady where sets share the error of a reading.
             assert!(!is_steady(&times(seed, |_| 0.0, 3.0 * SIGMA), 1, SIGMA), "{seed}");
-            // Of the phase nothing was seen.
-            assert!(!is_steady(&times(seed, |_| SIGMA, 0.0), 0, SIGMA), "{seed}");
         }
+    }
+
+    #[test]
+    fn a_phase_that_goes_with_the_velocity_is_no_jitter() {
+        let phases = |steady: fn(f64) -> f64| {
+            let mut phases = Jitters::default();
+            for frame in times(3, steady, 0.0).frames() {
+                phases.add(Frame { phase: frame.time, time: (0.0, 0.0), ..*frame });
+            }
+            phases
+        };
+        assert!(is_steady(&phases(|velocity| SIGMA * velocity), 0, SIGMA));
+        // Its mean is the pixels' own.
+        assert!(!is_steady(&phases(|_| SIGMA), 0, SIGMA));
+        assert!(!is_steady(&phases(|_| 0.0), 0, SIGMA));
+    }
+
+    #[test]
+    fn a_jitter_of_many_sets_may_have_a_little_of_a_mean() {
+        assert!(!is_steady(&of_sets(4000, 5, |_| 0.1 * SIGMA, 0.0), 1, SIGMA));
+        assert!(is_steady(&of_sets(4000, 5, |_| SIGMA, 0.0), 1, SIGMA));
     }
 }

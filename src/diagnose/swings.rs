@@ -53,8 +53,8 @@ const LEAST_SETS: usize = 16;
 const NUMBERS: usize = 2;
 /// Standard deviations that a set is taken to be off at most.
 const MOST: f64 = 10.0;
-/// From this share of the greatest frequency that sets can show on, a swing is one of every other set.
-const ALTERNATING: f64 = 0.98;
+/// A swing of every other set is off by fewer cycles over a recording.
+const ALTERNATING_CYCLES: f64 = 1.0;
 /// Products of frequencies and sets that are looked at, at most.
 const MOST_PRODUCTS: f64 = 2e8;
 
@@ -108,10 +108,7 @@ impl Swings {
     fn of_mode(&self, mode: usize) -> Option<Swing> {
         let mut takes = self.takes(mode);
         let longest_s = takes.iter().map(|sets| sets[sets.len() - 1].0 - sets[0].0).fold(0.0, f64::max);
-        let between_s = takes.iter().flat_map(|sets| sets.windows(2).map(|pair| pair[1].0 - pair[0].0));
-        let mut between_s: Vec<f64> = between_s.filter(|s| *s > 0.0).collect();
-        between_s.sort_by(f64::total_cmp);
-        let usual_s = *between_s.get(between_s.len() / 2)?;
+        let usual_s = usual(takes.iter().flat_map(gaps).collect())?;
         let sets = takes.iter().map(Vec::len).sum::<usize>() as f64;
         let most = MOST_PRODUCTS / (sets * FINENESS * longest_s);
         let ends = (LEAST_CYCLES / longest_s, (0.5 / usual_s).min(most));
@@ -132,9 +129,25 @@ impl Swings {
         };
         let sizes: Vec<(f64, f64)> = takes.iter().map(size).collect();
         let found = Greatest::of(line.chi2, NUMBERS * takes.len(), line.looked);
-        let alternates = 2.0 * line.frequency * usual_s > ALTERNATING;
+        let alternates = takes.iter().all(|take| {
+            let duration_s = take[take.len() - 1].0 - take[0].0;
+            let off_hz = 0.5 / usual(gaps(take)).unwrap_or(f64::NAN) - line.frequency;
+            off_hz.abs() * duration_s < ALTERNATING_CYCLES
+        });
         agree(&sizes).then_some(Swing { mode: MODES[mode], hz: line.frequency, alternates, found })
     }
+}
+
+/// Times from set to set, s.
+fn gaps(take: &Take) -> Vec<f64> {
+    take.windows(2).map(|pair| pair[1].0 - pair[0].0).collect()
+}
+
+/// The median of those that are times.
+fn usual(mut gaps_s: Vec<f64>) -> Option<f64> {
+    gaps_s.retain(|s| *s > 0.0);
+    gaps_s.sort_by(f64::total_cmp);
+    gaps_s.get(gaps_s.len() / 2).copied()
 }
 
 #[cfg(test)]
@@ -180,7 +193,7 @@ mod tests {
             let swings = swing(14, [1.0, 1.0], |_, time_s| (TAU * time_s / period_s + 0.7).cos()).unwrap();
             swings.alternates
         };
-        assert!(alternates(0.4) && !alternates(0.5) && !alternates(3.1));
+        assert!(alternates(0.4) && !alternates(0.42) && !alternates(0.5) && !alternates(3.1));
     }
 
     #[test]

@@ -103,8 +103,6 @@ pub struct Exposure {
     pub frequency_hz: f64,
     /// Phase of the demodulation against the light: step and offset, rad.
     pub angle_rad: f64,
-    /// How light falls off, 1 / m², with the place for which that was looked up, m, and whether the light was on: these pixels' ranges do not change.
-    pub falloff: ((f64, bool), PerPixel),
     /// Radial range, m.
     pub range_m: PerPixel,
     /// Phase, rad: of the range, and the pixel's own.
@@ -151,7 +149,6 @@ impl Exposure {
             falloff_share: f64::from(u8::from(included.inverse_square_falloff)),
             frequency_hz: moment.frequency_hz,
             angle_rad: moment.offset_rad + moment.step_rad,
-            falloff: ((f64::NAN, false), PerPixel::default()),
             range_m: PerPixel::default(),
             phase_rad: PerPixel::default(),
             amplitude_dn: PerPixel::default(),
@@ -206,11 +203,16 @@ impl Exposure {
 
     /// Whether everything else that effects change is the same in both.
     pub fn arrays_stand_as(&self, other: &Self) -> bool {
-        self.range_m == other.range_m
-            && self.phase_rad == other.phase_rad
-            && self.amplitude_dn == other.amplitude_dn
+        self.amplitude_dn == other.amplitude_dn
             && self.constant_dn == other.constant_dn
             && self.ambient_dn == other.ambient_dn
+            && self.stands_as_but_for_light(other)
+    }
+
+    /// The same of everything but light, and those numbers.
+    pub fn stands_as_but_for_light(&self, other: &Self) -> bool {
+        self.range_m == other.range_m
+            && self.phase_rad == other.phase_rad
             && self.correlation == other.correlation
             && self.signal_dn == other.signal_dn
     }
@@ -237,13 +239,9 @@ impl Exposure {
         let position_m = self.position_m + self.falloff_share * self.way_m();
         let (pixels, lit) = (&self.pixels, f64::from(u8::from(self.moment.lit)));
         pulp::Arch::new().dispatch(|| {
-            if self.falloff.0 != (position_m, self.moment.lit) {
-                let share = |range_m: &f64| lit / (range_m * range_m);
-                let shares = ranges_m(pixels, position_m).iter().map(share).collect();
-                self.falloff = ((position_m, self.moment.lit), shares);
-            }
-            let shares = &*self.falloff.1;
-            let times = |of: &[f64]| of.iter().zip(shares).map(|(light, share)| light * share).collect();
+            let share = |range_m: &f64| lit / (range_m * range_m);
+            let shares: Vec<f64> = ranges_m(pixels, position_m).iter().map(share).collect();
+            let times = |of: &[f64]| of.iter().zip(&shares).map(|(light, share)| light * share).collect();
             self.amplitude_dn = times(&pixels.amplitude_1m_dn);
             self.constant_dn = times(&pixels.constant_1m_dn);
         });
