@@ -217,7 +217,6 @@ fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set: usi
         if by.has_jitters() {
             let frame = tangents.frame(number, index);
             let velocity_m_s = take.moments[index].velocity_m_s;
-            // Which set does not matter where nothing is said of their means.
             seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, 0, velocity_m_s));
         }
         let weight = weight(take, frame);
