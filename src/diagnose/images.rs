@@ -34,6 +34,11 @@ impl Image {
 /// The images of the flicker that was fitted, those that the frames of all recordings see as the line but for their noise.
 pub fn images(data: &Data, fit: &Fit) -> Vec<Image> {
     let lines: Vec<Seen> = (0..fit.pieces.len()).filter_map(|piece| Seen::of(data, fit, piece)).collect();
+    images_of(&lines)
+}
+
+/// The same of what recordings show of a line.
+fn images_of(lines: &[Seen]) -> Vec<Image> {
     let Some(first) = lines.first() else { return Vec::new() };
     let image = |(frequency_hz, sign): (f64, f64)| {
         let of = |seen: &Seen| {
@@ -177,6 +182,23 @@ mod tests {
         };
         let differs = |&time_s: &f64| (light(line, time_s) - light([0.3, 0.4, 100.02], time_s)).abs() > 1e-9;
         assert!(!every(0.025).iter().any(differs));
+    }
+
+    /// Recordings whose frequencies are apart by what noise makes of them have the image in common.
+    #[test]
+    fn recordings_that_are_apart_share_the_image() {
+        let seen = |piece: usize, hz: f64| Seen {
+            piece,
+            line: [0.3, 0.4, hz],
+            sigma_hz: 5e-3,
+            chi2: 400.0,
+            times_s: every(0.025),
+            period_s: 0.025,
+        };
+        let images = images_of(&[seen(0, 100.02), seen(1, 100.03)]);
+        let [image] = &images[..] else { panic!("{images:?}") };
+        assert!(image.odds > 0.9 && (image.frequency_hz() - 99.98).abs() < 1e-9, "{image:?}");
+        assert!((image.lines[1].1[2] - 99.97).abs() < 1e-9, "{image:?}");
     }
 
     #[test]
