@@ -162,12 +162,15 @@ impl<'a> Tangents<'a> {
         let before = Moment::before(index, |index| moments[index]);
         let looks_back = chains.looks_back || chains.base.looks_back();
         let remembered = looks_back.then(|| chains.base.remember(before, &[]));
-        let start = chains.base.begin(moment, Memory { before: remembered, ..Memory::default() });
-        let stations = chains.base.stations(&start);
+        let mut start = chains.base.begin(moment, Memory { before: remembered, ..Memory::default() });
+        let mut stations = chains.base.stations(&start);
         let end = &stations[Place::Readout as usize];
         let base = end.signal_dn.clone();
         // Most of what is tried leaves the phases as they are.
         let memory = Memory { waveform: end.waveform.clone(), paths: end.paths.clone(), ..Memory::default() };
+        for exposure in stations.iter_mut().chain([&mut start]) {
+            (exposure.waveform, exposure.paths) = (memory.waveform.clone(), memory.paths.clone());
+        }
         let expose = |chain: &Chain, moment| expose(chain, moment, before, memory.clone()).signal_dn;
         let ambient = chains.base.pixels.ambient_dn.clone();
         let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
@@ -179,7 +182,6 @@ impl<'a> Tangents<'a> {
             }
             let mut exposure = stations[*place as usize].clone();
             exposure.pixels = Arc::clone(&chain.pixels);
-            (exposure.waveform, exposure.paths) = (memory.waveform.clone(), memory.paths.clone());
             chain.resume(&mut exposure, *place);
             difference(&exposure.signal_dn, &base, *step)
         };
