@@ -8,20 +8,19 @@ use super::held_out::Predictor;
 use super::lines::{FLICKER, FLICKER_HZ};
 use super::location::{Located, Location, locate};
 use super::noise::beyond;
-use super::pass::{DISBELIEF, RIVAL_NATS, THRESHOLD};
-use super::pieces::{OF_OTHER_PIXELS, Piece, tolerance};
+use super::pass::{DISBELIEF, THRESHOLD};
+use super::pieces::{Piece, tolerance};
 use super::random::{
     self, JITTERS, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation,
     is_noisier, of_name, random_effect, two_jitters, words,
 };
 use super::search::{Found, Named, Search};
 use super::source::{Shown, is_one, shown};
+use super::vote::Names;
 use crate::physics::effects;
 
 /// Evidence (nats) from which on a coordinate counts as located.
-const LOCATED_NATS: f64 = 4.0;
-/// What an effect's freedom costs, nats, where its evidence is taken from its fit.
-const OCCAM_NATS: f64 = 10.0;
+pub const LOCATED_NATS: f64 = 4.0;
 /// Noise in proportion to the signal, by the registry's name.
 const EXCESS_NOISE: &str = "excess_noise";
 /// How often the noise is corrected.
@@ -170,7 +169,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let is_far = found.baseline.is_far_from(&found.fit);
     let shared = random::noise(data, &end);
     let are_raised = random.is_some() || shared.is_some();
-    let simpler = !is_far && !are_raised && is_outvoted(&baseline, &found, &named, explained);
+    let simpler = !is_far
+        && !are_raised
+        && Names::of(&found, &named, explained).is_some_and(|names| names.are_outvoted(&baseline));
     let believed = named.iter().map(|named| DISBELIEF * tolerance(named.name)).fold(0.0, f64::max);
     let strongest = random.or(excess);
     let two = strongest.and_then(|strongest| two_jitters(&end, strongest));
@@ -250,43 +251,6 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         noise,
         shared_noise,
     }
-}
-
-/// Whether one coordinate at `baseline`, or one of its ways of being off, says about as much as the effects `named` together, which explain so
-/// much of chi squared: it is the simpler answer, whatever makes it.
-///
-/// A name must say more than that by a nat, and each further one by as much as it must by than a rival. Columns that explain no more, and are no fewer
-/// numbers, are only another form of the names.
-fn is_outvoted(baseline: &Location, found: &Found, named: &[Named], explained: f64) -> bool {
-    let Some(first) = named.first() else { return false };
-    let mut evidences: Vec<f64> = named.iter().map(|named| named.ln_bayes).collect();
-    // Of two that were found together it is that of both.
-    evidences.dedup();
-    // A fit may keep more than tangents promise.
-    let kept = 0.5 * explained - OCCAM_NATS * named.len() as f64;
-    // Columns are tangents: what one name promises by its own counts as much as what its fit keeps.
-    let promised = match named {
-        [single] => found.alone(single.name).map_or(0.0, |alone| alone.ln_bayes),
-        _ => 0.0,
-    };
-    let together = evidences.iter().sum::<f64>().max(kept).max(promised);
-    let numbers: usize = named.iter().map(|named| named.score.1).sum();
-    let flickers = named.iter().any(|named| named.name == FLICKER);
-    let outvotes = |coordinate: &Located| {
-        let is_swing = coordinate.looked > 1.0 && matches!(coordinate.coordinate, "time_s" | "set");
-        let least = match coordinate.coordinate {
-            // What is said of neighbours is what those effects do, roughly.
-            "neighbours" if OF_OTHER_PIXELS.contains(&first.name) => f64::INFINITY,
-            // A flicker swings.
-            _ if flickers && is_swing => together + RIVAL_NATS,
-            _ => together - 1.0 - RIVAL_NATS * (named.len() as f64 - 1.0),
-        };
-        let (chi2, columns) = coordinate.chi2;
-        let is_other =
-            columns < numbers || chi2 - columns as f64 > explained - numbers as f64 + 2.0 * RIVAL_NATS;
-        is_other && coordinate.ln_bayes > least.max(LOCATED_NATS)
-    };
-    baseline.columns.iter().any(outvotes)
 }
 
 /// Where a line is that was taken for a flicker, but has several sources.

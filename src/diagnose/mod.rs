@@ -44,6 +44,7 @@ mod steady;
 mod swings;
 mod tamed;
 mod verdict;
+mod vote;
 mod watchdog;
 mod waves;
 mod white;

@@ -1,0 +1,137 @@
+//! Whether a coordinate is a simpler answer than the effects that were named.
+
+use super::evidence::tail;
+use super::judge::LOCATED_NATS;
+use super::lines::FLICKER;
+use super::location::{Located, Location};
+use super::pass::RIVAL_NATS;
+use super::pieces::OF_OTHER_PIXELS;
+use super::search::{Found, Named};
+
+/// What an effect's freedom costs, nats, where its evidence is taken from its fit.
+const OCCAM_NATS: f64 = 10.0;
+/// Noise brings what a coordinate shows clearly more rarely where its probability is less by this factor: a nat.
+const RARER: f64 = 0.37;
+
+/// What the effects that were named say together.
+#[derive(Debug, Clone, Copy)]
+pub struct Names {
+    /// How many they are.
+    count: usize,
+    /// Evidence, nats.
+    ln_bayes: f64,
+    /// Chi squared that they explain, and by how many numbers.
+    chi2: (f64, usize),
+    /// Whether one of them is a flicker.
+    flickers: bool,
+    /// Whether the first one is what other pixels do.
+    is_of_other_pixels: bool,
+}
+
+impl Names {
+    /// Of the effects `named`, of those that were `found`, which explain so much of chi squared; nothing where none is named.
+    pub fn of(found: &Found, named: &[Named], explained: f64) -> Option<Self> {
+        let first = named.first()?;
+        let mut evidences: Vec<f64> = named.iter().map(|named| named.ln_bayes).collect();
+        // Of two that were found together it is that of both.
+        evidences.dedup();
+        // A fit may keep more than tangents promise.
+        let kept = 0.5 * explained - OCCAM_NATS * named.len() as f64;
+        // Columns are tangents: what one name promises by its own counts as much as what its fit keeps.
+        let promised = match named {
+            [single] => found.alone(single.name).map_or(0.0, |alone| alone.ln_bayes),
+            _ => 0.0,
+        };
+        Some(Self {
+            count: named.len(),
+            ln_bayes: evidences.iter().sum::<f64>().max(kept).max(promised),
+            chi2: (explained, named.iter().map(|named| named.score.1).sum()),
+            flickers: named.iter().any(|named| named.name == FLICKER),
+            is_of_other_pixels: OF_OTHER_PIXELS.contains(&first.name),
+        })
+    }
+
+    /// Whether one coordinate at the baseline, or one of its ways of being off, says about as much as the names together: it is the simpler answer, whatever
+    /// makes it.
+    ///
+    /// A name must say more than that by a nat, and each further one by as much as it must by than a rival; and noise must not bring what the coordinate
+    /// shows clearly more rarely than what the names explain. Columns that explain no more, and are no fewer numbers, are only another form of the
+    /// names.
+    pub fn are_outvoted(&self, baseline: &Location) -> bool {
+        baseline.columns.iter().any(|coordinate| self.are_outvoted_by(coordinate))
+    }
+
+    fn are_outvoted_by(&self, coordinate: &Located) -> bool {
+        // What is said of neighbours is what those effects do, roughly.
+        if coordinate.coordinate == "neighbours" && self.is_of_other_pixels {
+            return false;
+        }
+        let ((chi2, columns), (explained, numbers)) = (coordinate.chi2, self.chi2);
+        let is_other =
+            columns < numbers || chi2 - columns as f64 > explained - numbers as f64 + 2.0 * RIVAL_NATS;
+        // A flicker swings.
+        let is_swing = coordinate.looked > 1.0 && matches!(coordinate.coordinate, "time_s" | "set");
+        let says_more = match self.flickers && is_swing {
+            true => coordinate.ln_bayes > self.ln_bayes + RIVAL_NATS,
+            false => {
+                let least = self.ln_bayes - 1.0 - RIVAL_NATS * (self.count as f64 - 1.0);
+                // What their freedom costs aside.
+                let is_rarer = coordinate.looked * tail(chi2, columns) < RARER * tail(explained, numbers);
+                is_rarer || coordinate.ln_bayes > least
+            }
+        };
+        is_other && says_more && coordinate.ln_bayes > LOCATED_NATS
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn located(coordinate: &'static str, ln_bayes: f64, chi2: (f64, usize), looked: f64) -> Located {
+        Located { coordinate, shape: String::new(), ln_bayes, chi2, looked }
+    }
+
+    const NAMES: Names =
+        Names { count: 1, ln_bayes: 20.0, chi2: (57.0, 6), flickers: false, is_of_other_pixels: false };
+
+    fn outvotes(names: Names, coordinate: &'static str, ln_bayes: f64, chi2: (f64, usize)) -> bool {
+        names.are_outvoted_by(&located(coordinate, ln_bayes, chi2, 1.0))
+    }
+
+    #[test]
+    fn columns_that_say_as_much_by_fewer_numbers_outvote_a_name() {
+        assert!(outvotes(NAMES, "phase", 19.5, (50.0, 5)));
+        assert!(!outvotes(NAMES, "phase", 18.5, (50.0, 5)));
+        // By no fewer numbers they are another form of it, but if they explain more.
+        assert!(!outvotes(NAMES, "phase", 19.5, (57.0, 6)));
+        assert!(outvotes(NAMES, "phase", 19.5, (70.0, 6)));
+        // Of two names each must be needed.
+        assert!(outvotes(Names { count: 2, ..NAMES }, "phase", 17.0, (45.0, 5)));
+    }
+
+    /// Chi squared of 57 by 6 numbers has the probability 1.8e-10, of 46 by 2 1.0e-10, and of 47 by 1 and by 2 7e-12 and 6e-11 (tables of the distribution).
+    #[test]
+    fn columns_that_noise_brings_more_rarely_outvote_a_name() {
+        assert!(outvotes(NAMES, "phase", 8.0, (47.0, 1)));
+        assert!(outvotes(NAMES, "phase", 8.0, (47.0, 2)));
+        // About as rarely.
+        assert!(!outvotes(NAMES, "phase", 8.0, (46.0, 2)));
+        // That is among many, or not clear.
+        assert!(!NAMES.are_outvoted_by(&located("code", 8.0, (47.0, 1), 100.0)));
+        assert!(!outvotes(NAMES, "phase", 3.0, (47.0, 1)));
+        // Beyond what a computer knows of probabilities neither is rarer.
+        let strong = Names { ln_bayes: 4000.0, chi2: (9e3, 6), ..NAMES };
+        assert!(!outvotes(strong, "phase", 3000.0, (8e3, 2)));
+    }
+
+    #[test]
+    fn neighbours_and_swings_say_what_effects_do() {
+        let of_neighbours = Names { is_of_other_pixels: true, ..NAMES };
+        assert!(outvotes(NAMES, "neighbours", 30.0, (60.0, 1)));
+        assert!(!outvotes(of_neighbours, "neighbours", 30.0, (60.0, 1)));
+        let flicker = Names { flickers: true, ..NAMES };
+        let swings = |ln_bayes: f64| flicker.are_outvoted_by(&located("time_s", ln_bayes, (90.0, 2), 50.0));
+        assert!(!swings(22.0) && swings(24.0));
+    }
+}
