@@ -12,9 +12,9 @@ use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::{Piece, tolerance};
 use super::random::{
     self, JITTERS, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation,
-    is_noisier, of_name, random_effect, two_jitters, words,
+    is_beyond_forms, is_noisier, of_name, random_effect, two_jitters, words,
 };
-use super::search::{Found, Named, Search};
+use super::search::{Found, Named, Search, tolerated};
 use super::source::{Shown, is_one, shown};
 use super::vote::Names;
 use crate::physics::effects;
@@ -150,7 +150,8 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let explained = (of_names - of_line).max(0.0);
 
     // A random effect takes with it what is left at random.
-    let random = random_effect(data, &end);
+    let of_forms = tolerated(&named);
+    let random = random_effect(data, &end).filter(|random| is_beyond_forms(random.ln_bayes, of_forms));
     // Else it is the noise that was stated, and more of it.
     let value = (noise.square - stated.square).max(0.0).sqrt();
     let strength = Strength { value, sigma: if value > 0.0 { 0.5 * square_sigma / value } else { 0.0 } };

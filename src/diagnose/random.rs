@@ -19,6 +19,8 @@ const ORDERED_LEFT: (f64, f64) = (0.02, 4.0);
 const ORDERED_MOST: f64 = 0.5;
 /// So many frames at least must show an error before it is known what numbers explain of it by chance.
 const FEW_FRAMES: f64 = 20.0;
+/// Of what the forms of named effects may leave, so much may look as if it were random.
+const AT_RANDOM: f64 = 0.05;
 /// Errors of rows, columns and frames that are less correlated than this, in standard deviations, are white: of eight lags one in two
 /// hundred is above it by chance.
 const WHITE: f64 = 3.5;
@@ -177,6 +179,11 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     Some(RandomEffect { name, strength: Strength { value: sigma, sigma: known_to }, ln_bayes, inflation })
 }
 
+/// Whether a random effect of this evidence, nats, is more than what looks so of the chi squared that the forms of named effects may leave.
+pub fn is_beyond_forms(ln_bayes: f64, of_forms: f64) -> bool {
+    ln_bayes > 0.5 * AT_RANDOM * of_forms
+}
+
 /// The coordinate of a verdict in which errors that samples share are located.
 pub fn coordinate(cluster: &Cluster) -> &'static str {
     match cluster.level {
@@ -207,7 +214,15 @@ pub fn words(cluster: &Cluster) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{deflated, is_most, of_name};
+    use super::{deflated, is_beyond_forms, is_most, of_name};
+
+    #[test]
+    fn what_a_strong_effect_nearly_explains_looks_random() {
+        // A flicker and a phase by amplitude, of 85 781 and 7379, whose forms may leave a twenty-fifth; a falloff of 613 207, which is a law.
+        let (flicker, falloff) = (0.04 * (85_781.0 + 7379.0), 1e-4 * 613_207.0);
+        assert!(!is_beyond_forms(10.6, flicker) && is_beyond_forms(100.0, flicker));
+        assert!(is_beyond_forms(7.0, falloff) && is_beyond_forms(7.0, 0.0));
+    }
 
     #[test]
     fn evidence_is_less_beside_random_errors() {

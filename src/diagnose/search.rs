@@ -71,7 +71,7 @@ impl Found {
 }
 
 /// What stands of the named effects' evidence may come from their own form: this much of what they explain is theirs.
-fn tolerated(named: &[Named]) -> f64 {
+pub fn tolerated(named: &[Named]) -> f64 {
     named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
 }
 

@@ -1,7 +1,7 @@
 //! A diagnosis as a page that needs nothing else: the verdict, maps and curves before and after, the evidence.
 
 use super::curves::curve;
-use super::text::paragraph;
+use super::text::{paragraph, probability};
 use crate::diagnose::{Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
 use crate::report::pixel_image::png_data_uri;
@@ -83,7 +83,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
                     row.coordinate.to_owned(),
                     row.shape.clone(),
                     row.recording.clone(),
-                    format!("{:.1e}", row.p),
+                    probability(row.p),
                     format!("{:.3}", row.rms_dn),
                 ]
             })

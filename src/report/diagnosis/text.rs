@@ -9,6 +9,11 @@ const MOST: usize = 4;
 /// Of names that are as sure as this nothing is said.
 const RISK: f64 = 0.02;
 
+/// A probability; of those that are less than numbers know, a bound.
+pub fn probability(p: f64) -> String {
+    if p < f64::MIN_POSITIVE { "< 1e-300".to_owned() } else { format!("{p:.1e}") }
+}
+
 /// What `diagnosis` says of `campaign`, in a screenful.
 pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
     let answer = &diagnosis.answer;
@@ -20,8 +25,12 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         for row in answer.located.iter().take(MOST) {
             let _ = writeln!(
                 text,
-                "  {:<13} {} (p {:.1e}, {:.2} DN RMS, most in {})",
-                row.coordinate, row.shape, row.p, row.rms_dn, row.recording
+                "  {:<13} {} (p {}, {:.2} DN RMS, most in {})",
+                row.coordinate,
+                row.shape,
+                probability(row.p),
+                row.rms_dn,
+                row.recording
             );
         }
     }
