@@ -8,7 +8,7 @@ VURIS := $(or $(CARGO_TARGET_DIR),target)/release/vuris
 unexport MAKEFLAGS MFLAGS
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove study proof open-question real-pages picture clean
+.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove study proof open-question catalogue real-pages picture clean
 
 help:      ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -73,6 +73,10 @@ proof: build ## two hundred blind campaigns of a second generator: made, answere
 
 open-question: build ## the paper's open question asked of the diagnosis: docs/open-question.md anew (eight minutes)
 	bash scripts/pages/open-question.sh $(VURIS)
+
+catalogue: setup build ## effects written down again, in numpy, and diagnosed: docs/catalogue.md anew (five minutes)
+	@bash scripts/hdl-tools.sh cocotb
+	bash scripts/pages/catalogue.sh $(VURIS)
 
 # The recordings are not part of this repository; VURIS_REAL names the folder that has them.
 real-pages: build ## real recordings diagnosed: docs/real-*.md anew (VURIS_REAL=DIR with flimfast/ and cfpe/)

@@ -151,12 +151,13 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
 
     // A random effect takes with it what is left at random.
     let of_forms = tolerated(&named);
-    let random = random_effect(data, &end).filter(|random| is_beyond_forms(random.ln_bayes, of_forms));
+    let seems = random_effect(data, &end);
+    let random = seems.filter(|random| is_beyond_forms(random.ln_bayes, of_forms));
     // Else it is the noise that was stated, and more of it.
     let value = (noise.square - stated.square).max(0.0).sqrt();
     let strength = Strength { value, sigma: if value > 0.0 { 0.5 * square_sigma / value } else { 0.0 } };
     let excess = RandomEffect { name: EXCESS_NOISE, strength, ln_bayes: in_proportion, inflation: 1.0 };
-    let excess = (random.is_none() && in_proportion > 0.0).then_some(excess);
+    let excess = (seems.is_none() && in_proportion > 0.0).then_some(excess);
     let is_left = |place: &&Place| {
         random.is_none_or(|random| {
             !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
@@ -169,7 +170,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // so does a random effect.
     let is_far = found.baseline.is_far_from(&found.fit);
     let shared = random::noise(data, &end);
-    let are_raised = random.is_some() || shared.is_some();
+    let are_raised = seems.is_some() || shared.is_some();
     let simpler = !is_far
         && !are_raised
         && Names::of(&found, &named, explained).is_some_and(|names| names.are_outvoted(&baseline));

@@ -3,7 +3,7 @@
 use super::data::Data;
 use super::evidence::tail;
 use super::gram::Whitened;
-use super::periodogram::{FINENESS, Scan, Sum, add_powers, chi2, greatest, longest};
+use super::periodogram::{ANY, FINENESS, Scan, Sought, Sum, add_powers, chi2, greatest, longest};
 
 /// What frames and sets say of errors that they share.
 #[derive(Debug, Clone, Default)]
@@ -50,6 +50,9 @@ pub const FLICKER: &str = "ambient_flicker";
 pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
 /// Periods of an encoder's error: cycles a metre.
 const CYCLES_M: (f64, f64) = (0.6, 250.0);
+/// An encoder's error changes less than what it measures, and is seen at more than one of its phases. A line that has one phase at all places, as places on a
+/// grid have of some, would take the readings' own noise back out, by a slope of -1.
+const OF_ENCODER: Sought = Sought { constant: true, steepest: 0.3, most_alike: 0.5 };
 /// Of a line that is seen nearly at rest, so many cycles over the whole length are a drift too.
 const DRIFT_CYCLES: f64 = 3.0;
 /// The same where the line is twice the mains' frequency, which is known beforehand: Hz, and by what share it is off at most.
@@ -148,7 +151,13 @@ impl Series {
     /// The strongest line in the encoder's reading, cycles a metre, and, where it is another one, that of the longest period among those that are as
     /// strong but for what noise makes of them: at places that are nearly evenly apart a line has images that are nearly as strong.
     pub fn in_position(&self) -> Vec<Line> {
-        let sets: Vec<(f64, Sum)> = self.sets.iter().map(|seen| (seen.reading_m, seen.position)).collect();
+        // Recordings at one place see no line.
+        let moves = |of: &SetSeen| {
+            let far = |seen: &&SetSeen| (seen.reading_m - of.reading_m).abs() > CYCLES_M.1.recip();
+            self.sets.iter().filter(|seen| seen.take == of.take).any(|seen| far(&seen))
+        };
+        let moving = self.sets.iter().filter(|seen| moves(seen));
+        let sets: Vec<(f64, Sum)> = moving.map(|seen| (seen.reading_m, seen.position)).collect();
         with_images(sets, CYCLES_M)
     }
 }
@@ -157,7 +166,7 @@ impl Series {
 ///
 /// Not those that go through whole turns within `period`, or nearly.
 pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> Option<Line> {
-    let Scan { low, step, powers } = Scan::of(groups, ends, false)?;
+    let Scan { low, step, powers } = Scan::of(groups, ends, ANY)?;
     let longest = longest(groups);
     let is_drift = |number: usize| {
         let frequency = low + number as f64 * step;
@@ -192,7 +201,7 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> O
 /// the longest period among those that are as strong, if it is another one.
 fn with_images(group: Vec<(f64, Sum)>, ends: (f64, f64)) -> Vec<Line> {
     let groups = [group];
-    let Some(Scan { low, step, powers }) = Scan::of(&groups, ends, true) else { return Vec::new() };
+    let Some(Scan { low, step, powers }) = Scan::of(&groups, ends, OF_ENCODER) else { return Vec::new() };
     let [group] = &groups;
     let most = powers.iter().copied().fold(0.0, f64::max);
     let is_peak = |&n: &usize| {
@@ -203,7 +212,7 @@ fn with_images(group: Vec<(f64, Sum)>, ends: (f64, f64)) -> Vec<Line> {
     let finer = |n: usize| {
         let first = low + (n as f64 - 1.0) * step;
         let mut fine = [0.0; 2 * FINER + 1];
-        add_powers(group, first, step / FINER as f64, true, &mut fine);
+        add_powers(group, first, step / FINER as f64, OF_ENCODER, &mut fine);
         let best = greatest(&fine);
         Line {
             frequency: first + best as f64 * step / FINER as f64,
@@ -236,7 +245,7 @@ fn own(group: &[(f64, Sum)], frequency: f64, step: f64) -> f64 {
     let window = (MAINS_OFF * frequency / step).floor();
     let low = frequency - window * step;
     let mut powers = vec![0.0; 2 * window as usize + 1];
-    add_powers(group, low, step, false, &mut powers);
+    add_powers(group, low, step, ANY, &mut powers);
     let common = powers[window as usize];
     let best = greatest(&powers);
     let seen = group.iter().filter(|(_, sum)| sum.1 > 0.0).count();
@@ -286,6 +295,12 @@ mod tests {
         assert!(agree(&[(100.0, 0.1), (108.0, 0.1)]));
     }
 
+    /// Errors, m, at places, which are known to a tenth of a millimetre, less their mean.
+    fn group(count: usize, at: &dyn Fn(usize) -> f64, error_m: &dyn Fn(usize) -> f64) -> Vec<(f64, Sum)> {
+        let mean = (0..count).map(error_m).sum::<f64>() / count as f64;
+        (0..count).map(|n| (at(n), (1e8 * (error_m(n) - mean), 1e8))).collect()
+    }
+
     /// Places nearly evenly apart, as on a rail: the line is found, whatever its place between the steps of frequency, and not one of its images.
     #[test]
     fn a_line_at_places_that_are_nearly_evenly_apart_is_not_its_image() {
@@ -296,14 +311,26 @@ mod tests {
                 let off = Draws::of(seed, 7).normal(51);
                 let at = |n: usize| 1.0 + 0.05 * n as f64 + 1e-4 * off[n];
                 let noise = Draws::of(seed, 8).normal(51);
-                let errors: Vec<f64> =
-                    (0..51).map(|n| amplitude * (TAU * cycles_m * at(n)).sin() + noise[n]).collect();
-                let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-                let group: Vec<(f64, Sum)> = (0..51).map(|n| (at(n), (errors[n] - mean, 1.0))).collect();
+                let error_m = |n: usize| 1e-4 * (amplitude * (TAU * cycles_m * at(n)).sin() + noise[n]);
+                let group = group(51, &at, &error_m);
                 let lines = with_images(group, CYCLES_M);
                 let line = lines.last().unwrap();
                 assert!((line.frequency - cycles_m).abs() < 0.1, "{cycles_m}: {lines:?}");
             }
+        }
+    }
+
+    /// Readings on a grid that are off by noise, which the target's places are not: no line takes it back out.
+    #[test]
+    fn the_readings_own_noise_is_no_line() {
+        for seed in 0..8 {
+            let off = Draws::of(seed, 7).normal(300);
+            let at = |n: usize| 1.0 + 0.05 * (n % 45) as f64 + 1.5e-4 * off[n];
+            let noise = Draws::of(seed, 8).normal(300);
+            let of_readings = group(300, &at, &|n| 1e-4 * (0.2 * noise[n] - 1.5 * off[n]));
+            let found = with_images(of_readings.clone(), CYCLES_M);
+            let line = found.first().map_or(0.0, |line| line.chi2);
+            assert!(line < 0.1 * chi2(&of_readings), "{line} of {}", chi2(&of_readings));
         }
     }
 

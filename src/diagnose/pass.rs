@@ -263,12 +263,13 @@ impl Pass {
         let score = |block: usize| self.scores[block].unwrap_or((0.0, usize::MAX));
         let name = self.name(block, candidates);
         // Fits of one effect that begin in several shapes may come to the same end: which of them was taken is chance.
-        let of_name = (0..self.blocks.len()).filter(|&other| self.name(other, candidates) == name).map(score);
-        let own = of_name.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_else(|| score(block));
-        let least = |rival: &str| (1.0 - tolerance(name).max(tolerance(rival))) * own.0;
+        let is_another =
+            |&other: &usize| self.name(other, candidates) == name && score(other).1 <= score(block).1;
+        let own = (0..self.blocks.len()).filter(is_another).map(|other| score(other).0).fold(0.0, f64::max);
+        let least = |rival: &str| (1.0 - tolerance(name).max(tolerance(rival))) * own;
         let is_near = |&other: &usize| {
             let rival = self.name(other, candidates);
-            rival != name && score(other).0 > least(rival) && score(other).1 <= own.1
+            rival != name && score(other).0 > least(rival) && score(other).1 <= score(block).1
         };
         (0..self.blocks.len()).filter(is_near).map(|other| self.name(other, candidates).to_owned()).collect()
     }

@@ -10,6 +10,20 @@ pub type Sum = (f64, f64);
 /// Frequencies are so many times finer than the inverse of the whole length.
 pub const FINENESS: f64 = 4.0;
 
+/// What a line is beside, and what it is not.
+#[derive(Debug, Clone, Copy)]
+pub struct Sought {
+    /// Whether each group may have a constant.
+    pub constant: bool,
+    /// A line whose slope, amplitude times 2 pi frequency, is steeper is none.
+    pub steepest: f64,
+    /// Nor is one whose phases in a group are more alike: the length of their mean, weighted by information.
+    pub most_alike: f64,
+}
+
+/// Any line, beside nothing.
+pub const ANY: Sought = Sought { constant: false, steepest: f64::INFINITY, most_alike: f64::INFINITY };
+
 /// The powers at frequencies from `low` on, `step` apart.
 pub struct Scan {
     /// The first frequency.
@@ -21,8 +35,8 @@ pub struct Scan {
 }
 
 impl Scan {
-    /// Of all groups, each with a phase of its own, and, where there may be one, beside a `constant` of each.
-    pub fn of(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), constant: bool) -> Option<Self> {
+    /// Of all groups, each with a phase of its own.
+    pub fn of(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), sought: Sought) -> Option<Self> {
         let longest = longest(groups);
         if longest <= 0.0 {
             return None;
@@ -33,7 +47,7 @@ impl Scan {
         let powers = starts.into_par_iter().flat_map_iter(|start| {
             let mut powers = vec![0.0; TOGETHER.min(count - start)];
             for group in groups {
-                add_powers(group, low + start as f64 * step, step, constant, &mut powers);
+                add_powers(group, low + start as f64 * step, step, sought, &mut powers);
             }
             powers
         });
@@ -60,7 +74,7 @@ pub fn longest(groups: &[Vec<(f64, Sum)>]) -> f64 {
 /// Chi squared that a line of this frequency explains in a group.
 pub fn power(group: &[(f64, Sum)], frequency: f64) -> f64 {
     let mut power = [0.0];
-    add_powers(group, frequency, 0.0, false, &mut power);
+    add_powers(group, frequency, 0.0, ANY, &mut power);
     power[0]
 }
 
@@ -83,8 +97,8 @@ struct Turning {
     turn: (f64, f64),
 }
 
-/// Adds the powers at `frequency` and at those after it, each `step` above the last, beside a `constant`, where there may be one.
-pub fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, constant: bool, powers: &mut [f64]) {
+/// Adds the powers at `frequency` and at those after it, each `step` above the last, of what is `sought`.
+pub fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, sought: Sought, powers: &mut [f64]) {
     let angle = |turns: f64| cos_sin(TAU * (turns - turns.floor()));
     let turning = |&(at, (score, information)): &(f64, Sum)| {
         let (cosine, sine) = angle(at * frequency);
@@ -93,7 +107,7 @@ pub fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, constant: boo
     let mut samples: Vec<Turning> = group.iter().map(turning).collect();
     let (score, information) =
         samples.iter().fold((0.0, 0.0), |sums, sample| (sums.0 + sample.score, sums.1 + sample.information));
-    for power in powers {
+    for (number, power) in powers.iter_mut().enumerate() {
         let (mut c, mut s, mut cc, mut ss, mut cs) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let (mut of_cosine, mut of_sine) = (0.0, 0.0);
         for sample in &mut samples {
@@ -108,30 +122,36 @@ pub fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, constant: boo
             sample.cosine = cosine * turn.0 - sine * turn.1;
             sample.sine = sine * turn.0 + cosine * turn.1;
         }
-        if constant && information > 0.0 {
+        let is_alike = of_cosine.hypot(of_sine) > sought.most_alike * information;
+        if sought.constant && information > 0.0 {
             (c, s) = (c - of_cosine * score / information, s - of_sine * score / information);
             cc -= of_cosine * of_cosine / information;
             ss -= of_sine * of_sine / information;
             cs -= of_cosine * of_sine / information;
         }
-        *power += explained(c, s, cc, ss, cs);
+        let (chi2, amplitude) = explained(c, s, cc, ss, cs);
+        let slope = TAU * (frequency + number as f64 * step) * amplitude;
+        if slope <= sought.steepest && !is_alike {
+            *power += chi2;
+        }
     }
 }
 
-/// Chi squared that a line explains, by the sums of its scores and their information.
-fn explained(c: f64, s: f64, cc: f64, ss: f64, cs: f64) -> f64 {
+/// Chi squared that a line explains, by the sums of its scores and their information; and its amplitude.
+fn explained(c: f64, s: f64, cc: f64, ss: f64, cs: f64) -> (f64, f64) {
     let total = cc + ss;
     if total <= 0.0 {
-        return 0.0;
+        return (0.0, 0.0);
     }
     // Where frames sample one phase of the line only, the other phase says nothing.
     let determinant = cc * ss - cs * cs;
     if determinant > 1e-3 * total * total {
-        (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant
+        let chi2 = (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant;
+        (chi2, (c * ss - s * cs).hypot(s * cc - c * cs) / determinant)
     } else if cc > ss {
-        c * c / cc
+        (c * c / cc, c.abs() / cc)
     } else {
-        s * s / ss
+        (s * s / ss, s.abs() / ss)
     }
 }
 
@@ -148,10 +168,35 @@ mod tests {
         let group: Vec<(f64, Sum)> = (0..26).map(|n| (at(n), (errors[n] - mean, 1.0))).collect();
         let power = |constant| {
             let mut power = [0.0];
-            add_powers(&group, 1.0, 0.0, constant, &mut power);
+            add_powers(&group, 1.0, 0.0, Sought { constant, ..ANY }, &mut power);
             power[0] / chi2(&group)
         };
         assert!((power(true) - 1.0).abs() < 1e-9, "{}", power(true));
         assert!(power(false) < 0.97, "{}", power(false));
+    }
+
+    #[test]
+    fn a_line_that_is_too_steep_is_none() {
+        let line = |n: usize| (0.3 * n as f64 + 1.0).cos();
+        let group: Vec<(f64, Sum)> = (0..200).map(|n| (n as f64, (5.0 * 2e-3 * line(n), 5.0))).collect();
+        let power = |steepest: f64| {
+            let mut power = [0.0];
+            add_powers(&group, 0.3 / TAU, 0.0, Sought { constant: true, steepest, ..ANY }, &mut power);
+            power[0] / chi2(&group)
+        };
+        // An amplitude of 2e-3 at 0.3 rad has the slope 6e-4.
+        assert!(power(6.1e-4) > 0.99 && power(5.9e-4) == 0.0);
+    }
+
+    #[test]
+    fn a_line_whose_phases_are_alike_is_none() {
+        // Phases of 0 and 1 rad in turn: their mean is cos 0.5 rad = 0.878 long.
+        let group: Vec<(f64, Sum)> = (0..20).map(|n| ((n % 2) as f64, (1.0, 1.0))).collect();
+        let power = |most_alike: f64| {
+            let mut power = [0.0];
+            add_powers(&group, 1.0 / TAU, 0.0, Sought { most_alike, ..ANY }, &mut power);
+            power[0]
+        };
+        assert!(power(0.88) > 1.0 && power(0.87) == 0.0);
     }
 }

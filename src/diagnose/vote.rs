@@ -5,11 +5,13 @@ use super::judge::LOCATED_NATS;
 use super::lines::FLICKER;
 use super::location::{Located, Location};
 use super::pass::RIVAL_NATS;
-use super::pieces::OF_OTHER_PIXELS;
-use super::search::{Found, Named};
+use super::pieces::{OF_OTHER_PIXELS, Piece};
+use super::search::{Found, Named, tolerated};
 
 /// What an effect's freedom costs, nats, where its evidence is taken from its fit.
 const OCCAM_NATS: f64 = 10.0;
+/// What is less probable than this is no question of noise.
+const OF_NOISE: f64 = 1e-100;
 /// Noise brings what a coordinate shows clearly more rarely where its probability is less by this factor: a nat.
 const RARER: f64 = 0.37;
 
@@ -20,8 +22,10 @@ pub struct Names {
     count: usize,
     /// Evidence, nats.
     ln_bayes: f64,
-    /// Chi squared that they explain, and by how many numbers.
+    /// Chi squared that they explain, and by how many numbers, but for shapes.
     chi2: (f64, usize),
+    /// Chi squared that they would explain if their forms were exact, and by how many numbers, shapes among them.
+    at_most: (f64, usize),
     /// Whether one of them is a flicker.
     flickers: bool,
     /// Whether the first one is what other pixels do.
@@ -38,14 +42,16 @@ impl Names {
         // A fit may keep more than tangents promise.
         let kept = 0.5 * explained - OCCAM_NATS * named.len() as f64;
         // Columns are tangents: what one name promises by its own counts as much as what its fit keeps.
-        let promised = match named {
-            [single] => found.alone(single.name).map_or(0.0, |alone| alone.ln_bayes),
-            _ => 0.0,
-        };
+        let alone = if let [single] = named { found.alone(single.name) } else { None };
+        let (promised, promised_chi2) = alone.map_or((0.0, 0.0), |alone| (alone.ln_bayes, alone.chi2));
+        let is_named = |piece: &&Piece| named.iter().any(|named| named.name == piece.effect.name);
+        let shapes: usize = found.fit.pieces.iter().filter(is_named).map(Piece::shapes).sum();
+        let numbers = named.iter().map(|named| named.score.1).sum();
         Some(Self {
             count: named.len(),
             ln_bayes: evidences.iter().sum::<f64>().max(kept).max(promised),
-            chi2: (explained, named.iter().map(|named| named.score.1).sum()),
+            chi2: (explained, numbers),
+            at_most: (explained.max(promised_chi2) + tolerated(named), numbers + shapes),
             flickers: named.iter().any(|named| named.name == FLICKER),
             is_of_other_pixels: OF_OTHER_PIXELS.contains(&first.name),
         })
@@ -55,7 +61,7 @@ impl Names {
     /// makes it.
     ///
     /// A name must say more than that by a nat, and each further one by as much as it must by than a rival; and noise must not bring what the coordinate
-    /// shows clearly more rarely than what the names explain. Columns that explain no more, and are no fewer numbers, are only another form of the
+    /// shows clearly more rarely than what the names explain, and their forms may leave. Columns that explain no more, and are no fewer numbers, are only another form of the
     /// names.
     pub fn are_outvoted(&self, baseline: &Location) -> bool {
         baseline.columns.iter().any(|coordinate| self.are_outvoted_by(coordinate))
@@ -75,8 +81,10 @@ impl Names {
             true => coordinate.ln_bayes > self.ln_bayes + RIVAL_NATS,
             false => {
                 let least = self.ln_bayes - 1.0 - RIVAL_NATS * (self.count as f64 - 1.0);
-                // What their freedom costs aside.
-                let is_rarer = coordinate.looked * tail(chi2, columns) < RARER * tail(explained, numbers);
+                // What their freedom costs aside. Of either about as many were looked at.
+                let by_names = tail(self.at_most.0, self.at_most.1);
+                let is_rarer =
+                    by_names > OF_NOISE && coordinate.looked * tail(chi2, columns) < RARER * by_names;
                 is_rarer || coordinate.ln_bayes > least
             }
         };
@@ -92,8 +100,14 @@ mod tests {
         Located { coordinate, shape: String::new(), ln_bayes, chi2, looked }
     }
 
-    const NAMES: Names =
-        Names { count: 1, ln_bayes: 20.0, chi2: (57.0, 6), flickers: false, is_of_other_pixels: false };
+    const NAMES: Names = Names {
+        count: 1,
+        ln_bayes: 20.0,
+        chi2: (57.0, 6),
+        at_most: (57.0, 6),
+        flickers: false,
+        is_of_other_pixels: false,
+    };
 
     fn outvotes(names: Names, coordinate: &'static str, ln_bayes: f64, chi2: (f64, usize)) -> bool {
         names.are_outvoted_by(&located(coordinate, ln_bayes, chi2, 1.0))
@@ -120,9 +134,13 @@ mod tests {
         // That is among many, or not clear.
         assert!(!NAMES.are_outvoted_by(&located("code", 8.0, (47.0, 1), 100.0)));
         assert!(!outvotes(NAMES, "phase", 3.0, (47.0, 1)));
-        // Beyond what a computer knows of probabilities neither is rarer.
-        let strong = Names { ln_bayes: 4000.0, chi2: (9e3, 6), ..NAMES };
-        assert!(!outvotes(strong, "phase", 3000.0, (8e3, 2)));
+        // The name's tangents promise more than its fit keeps, or its form may leave as much.
+        assert!(!outvotes(Names { at_most: (60.0, 6), ..NAMES }, "phase", 8.0, (47.0, 2)));
+        // A shape more, and it is a nat less.
+        assert!(outvotes(Names { at_most: (57.0, 7), ..NAMES }, "phase", 8.0, (46.0, 2)));
+        // What is far from noise is no question of it.
+        let strong = Names { ln_bayes: 4000.0, chi2: (8e3, 6), at_most: (8e3, 6), ..NAMES };
+        assert!(!outvotes(strong, "phase", 3000.0, (8e3 + 7.0, 2)));
     }
 
     #[test]

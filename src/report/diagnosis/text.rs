@@ -11,7 +11,7 @@ const RISK: f64 = 0.02;
 
 /// A probability; of those that are less than numbers know, a bound.
 pub fn probability(p: f64) -> String {
-    if p < f64::MIN_POSITIVE { "< 1e-300".to_owned() } else { format!("{p:.1e}") }
+    if p < 1e-300 { "< 1e-300".to_owned() } else { format!("{p:.1e}") }
 }
 
 /// What `diagnosis` says of `campaign`, in a screenful.
