@@ -71,10 +71,10 @@ proof: build ## two hundred blind campaigns of a second generator: made, answere
 	@date -u +%F
 	$(VURIS) challenge score $(PROOF) --labels $(PROOF)-labels.json --json $(PROOF)-score.json
 
-open-question: build ## the paper's open question asked of the diagnosis: docs/open-question.md anew (eight minutes)
+open-question: build ## the paper's open question asked of the diagnosis: docs/open-question.md anew (three minutes)
 	bash scripts/pages/open-question.sh $(VURIS)
 
-catalogue: setup build ## effects written down again, in numpy, and diagnosed: docs/catalogue.md anew (five minutes)
+catalogue: setup build ## effects written down again, in numpy, and diagnosed: docs/catalogue.md anew (seven minutes)
 	@bash scripts/hdl-tools.sh cocotb
 	bash scripts/pages/catalogue.sh $(VURIS)
 

@@ -35,16 +35,6 @@ def waveform(**harmonics):
     return "wave", act
 
 
-def gains(of):
-    """Single frames of a set brighter by a share, {(frames of the set, frame): share}."""
-
-    def act(frame):
-        share = 1 + frame.strength * of.get((frame.count, frame.number), 0.0)
-        frame.amplitude_dn, frame.constant_dn = frame.amplitude_dn * share, frame.constant_dn * share
-
-    return "light", act
-
-
 def fading(share):
     """All of the camera's light, by a function of the frame."""
 
@@ -53,6 +43,11 @@ def fading(share):
         frame.amplitude_dn, frame.constant_dn = frame.amplitude_dn * factor, frame.constant_dn * factor
 
     return "light", act
+
+
+def gains(of):
+    """Single frames of a set brighter by a share, {(frames of the set, frame): share}."""
+    return fading(lambda frame: of.get((frame.count, frame.number), 0.0))
 
 
 def add(stage, name, value):
@@ -87,11 +82,10 @@ def emitter_beside(frame, beside_m):
     return np.sqrt((column_m - beside_m) ** 2 + row_m**2 + frame.axial_m**2) - frame.range_m
 
 
-SCALE, ERRORS = (add("clock", "angle_rad", lambda f: 0.004 * f.number * STEPS_RAD[f.count]),), (
-    add("clock", "angle_rad", lambda f: 0.006 * f.errors[f.count][f.number]),
-)
 FULL_DN = FULL_SCALE - PEDESTAL_DN
 TURN = 6.283185307179586
+SCALE = add("clock", "angle_rad", lambda f: 0.004 * f.number * STEPS_RAD[f.count])
+ERRORS = add("clock", "angle_rad", lambda f: 0.006 * f.errors[f.count][f.number])
 WALK = add("path", "phase_rad", lambda f: 0.004 * np.log(f.amplitude_dn / 100.0))
 WARM = add("path", "phase_rad", lambda f: 0.01 * (1 - np.exp(-f.time_s / 8.0)))
 MAINS = add("ambient", "ambient_dn", lambda f: 0.02 * f.ambient_dn * np.cos(TURN * 100.03 * (f.began_s + f.time_s)))
@@ -111,8 +105,8 @@ CASES = {
     "clean": ([], []),
     "duty-cycle": ([waveform(h2=0.004, h4=0.002)], [{"correlation_harmonics"}]),
     "third-harmonic": ([waveform(h3=0.006)], [{"correlation_harmonics"}]),
-    "step-scale": (SCALE, [{"phase_step_scale"}]),
-    "step-errors": (ERRORS, [{"phase_step_errors"}]),
+    "step-scale": ([SCALE], [{"phase_step_scale"}]),
+    "step-errors": ([ERRORS], [{"phase_step_errors"}]),
     "quadrature-gain": ([gains({(FOUR, 1): 0.003, (FOUR, 3): 0.003})], [{"frame_gain"}]),
     "one-frame-brighter": ([gains({(FOUR, 2): 0.002, (FIVE, 2): 0.002})], [{"frame_gain"}]),
     "ambient-drift": ([BRIGHTER], [{"ambient_drift"}]),
@@ -133,11 +127,11 @@ CASES = {
     "late-frames": ([add("clock", "time_s", lambda f: 5e-4 * f.rng.standard_normal())], [{"timing_jitter_of_frames"}]),
     "converter": ([add("code", "code", lambda f: 1.2 * np.sin(TURN * f.code / 256.0))], [{"adc_nonlinearity"}]),
     "walk+flicker": ([WALK, MAINS], [{"intensity_related_phase"}, {"ambient_flicker"}]),
-    "lag+step-errors": ([lag(0.004), *ERRORS], [{"image_lag"}, {"phase_step_errors"}]),
+    "lag+step-errors": ([lag(0.004), ERRORS], [{"image_lag"}, {"phase_step_errors"}]),
     "harmonics+droop": ([waveform(h2=0.003, h5=0.003), DROOP], [{"correlation_harmonics"}, {"illumination_droop"}]),
     "warm-up+response": ([WARM, BENT], [{"phase_drift"}, {"intensity_nonlinearity"}]),
     "stray-light+feed-through": ([VEILED, COUPLED], [{"lens_scatter"}, {"electrical_crosstalk"}]),
-    "drift+step-scale": ([BRIGHTER, *SCALE], [{"ambient_drift"}, {"phase_step_scale"}]),
+    "drift+step-scale": ([BRIGHTER, SCALE], [{"ambient_drift"}, {"phase_step_scale"}]),
     "diffusion+clock-jitter": ([SPREAD, JITTER], [{"charge_crosstalk"}, {"clock_jitter"}]),
     "frequency+decay": ([FASTER, DIMMER], [{"modulation_frequency_error", "encoder_scale"}, {"illumination_drift"}]),
     "second-camera": (
@@ -271,11 +265,13 @@ def judged(name, verdict):
         first = verdict["located"][0]["coordinate"] if verdict["located"] else ""
         unnamed = "right" if first in expected.split() else "partly"
         return "wrong" if named else unnamed
-    pairs = [zip(expected, order) for order in permutations(named)] if len(named) == len(expected) else []
-    if any(all(effect in names for names, (effect, _) in pair) for pair in pairs):
+    if not expected:
+        return "wrong"
+    orders = permutations(named) if len(named) == len(expected) else []
+    pairings = [list(zip(expected, order)) for order in orders]
+    if any(all(effect in names for names, (effect, _) in pairing) for pairing in pairings):
         return "right"
-    pairs = [zip(expected, order) for order in permutations(named)] if len(named) == len(expected) else []
-    if any(all(names & {effect, *also} for names, (effect, also) in pair) for pair in pairs):
+    if any(all(names & {effect, *also} for names, (effect, also) in pairing) for pairing in pairings):
         return "possible"
     if not named:
         return "silent"

@@ -6,7 +6,7 @@ use super::fit::{Fit, fit, unfitted};
 use super::gram::Noise;
 use super::held_out::Predictor;
 use super::lines::{FLICKER, FLICKER_HZ};
-use super::location::{Located, Location, locate};
+use super::location::{LOCATED_NATS, Located, Location, locate};
 use super::noise::beyond;
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::{Piece, tolerance};
@@ -19,8 +19,6 @@ use super::source::{Shown, is_one, shown};
 use super::vote::Names;
 use crate::physics::effects;
 
-/// Evidence (nats) from which on a coordinate counts as located.
-pub const LOCATED_NATS: f64 = 4.0;
 /// Noise in proportion to the signal, by the registry's name.
 const EXCESS_NOISE: &str = "excess_noise";
 /// How often the noise is corrected.

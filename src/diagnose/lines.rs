@@ -206,7 +206,7 @@ fn with_images(group: Vec<(f64, Sum)>, ends: (f64, f64)) -> Vec<Line> {
     let most = powers.iter().copied().fold(0.0, f64::max);
     let is_peak = |&n: &usize| {
         let beside = [n.checked_sub(1), Some(n + 1)].into_iter().flatten().filter_map(|n| powers.get(n));
-        powers[n] >= NEARLY * most && beside.copied().all(|beside| beside <= powers[n])
+        powers[n] > 0.0 && powers[n] >= NEARLY * most && beside.copied().all(|beside| beside <= powers[n])
     };
     // A line between two steps has a twentieth less there, and so has its image, but at another place between its own.
     let finer = |n: usize| {

@@ -13,6 +13,9 @@ use super::parts::parts;
 use super::profiles::{Profile, Profiles};
 use super::ranges::Ranges;
 
+/// Evidence (nats) from which on a coordinate counts as located.
+pub const LOCATED_NATS: f64 = 4.0;
+
 /// A coordinate that explains something.
 #[derive(Debug, Clone)]
 pub struct Located {

@@ -1,9 +1,8 @@
 //! Whether a coordinate is a simpler answer than the effects that were named.
 
 use super::evidence::tail;
-use super::judge::LOCATED_NATS;
 use super::lines::FLICKER;
-use super::location::{Located, Location};
+use super::location::{LOCATED_NATS, Located, Location};
 use super::pass::RIVAL_NATS;
 use super::pieces::{OF_OTHER_PIXELS, Piece};
 use super::search::{Found, Named, tolerated};
@@ -61,8 +60,8 @@ impl Names {
     /// makes it.
     ///
     /// A name must say more than that by a nat, and each further one by as much as it must by than a rival; and noise must not bring what the coordinate
-    /// shows clearly more rarely than what the names explain, and their forms may leave. Columns that explain no more, and are no fewer numbers, are only another form of the
-    /// names.
+    /// shows clearly more rarely than what the names explain, and their forms may leave. Columns that explain no more, and are no fewer numbers, are only
+    /// another form of the names.
     pub fn are_outvoted(&self, baseline: &Location) -> bool {
         baseline.columns.iter().any(|coordinate| self.are_outvoted_by(coordinate))
     }
