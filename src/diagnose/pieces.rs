@@ -96,10 +96,11 @@ const LOOSE: f64 = 0.08;
 const EXACT: f64 = 0.01;
 /// Geometry has no other form, but for places and angles that are off by a hundredth: that, squared.
 const LAW: f64 = 1e-4;
-const TOLERANCES: [(&str, f64); 20] = [
+const TOLERANCES: [(&str, f64); 21] = [
     ("axial_motion", LAW),
     ("inverse_square_falloff", LAW),
     ("multipath_interference", APPROXIMATE),
+    ("illumination_baseline", APPROXIMATE),
     ("ambient_drift", APPROXIMATE),
     ("ambient_flicker", APPROXIMATE),
     ("illumination_droop", APPROXIMATE),

@@ -15,6 +15,7 @@ mod encoder_scale;
 mod excess_noise;
 mod fixed_point;
 mod frame_gain;
+mod illumination_baseline;
 mod illumination_drift;
 mod illumination_droop;
 mod image_lag;
@@ -75,6 +76,7 @@ pub static EFFECTS: &[&Effect] = &[
     // New ones come last: what chance draws follows the order.
     &response_decay::EFFECT,
     &encoder_offset::EFFECT,
+    &illumination_baseline::EFFECT,
 ];
 
 /// The effect called `name`.
