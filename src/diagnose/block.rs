@@ -4,7 +4,8 @@ use super::acting::{Acting, Share};
 use super::columns::OWN;
 use super::data::Data;
 use super::gram::Whitened;
-use nalgebra::{DMatrix, DVector};
+use super::set_errors::{self, Jitter};
+use nalgebra::DMatrix;
 use ndarray::linalg::general_mat_mul;
 use ndarray::{Array2, ArrayView2, Axis};
 
@@ -15,8 +16,8 @@ pub struct Block {
     pub full: DMatrix<f64>,
     /// The pixels' own numbers against columns and residual: (4 x pixels) x (columns + 1), number after number.
     pub mixed: DMatrix<f64>,
-    /// A set's position against columns and residual.
-    pub position: Vec<DVector<f64>>,
+    /// A set's errors against columns and residual.
+    pub errors: Vec<DMatrix<f64>>,
     /// What is to be added to `mixed`: patterns times each of the pixels' own numbers, and which column has them.
     waiting: Waiting,
     /// Room for a frame's patterns.
@@ -38,8 +39,8 @@ struct Waiting {
 pub struct Rows<'a> {
     /// By the pixel's own numbers.
     pub own: [Vec<f64>; OWN],
-    /// By the set's position.
-    pub position: Vec<f64>,
+    /// By the errors that samples share: the set's position, and what the frame has for itself.
+    pub errors: Vec<Vec<f64>>,
     /// Root of the weight.
     pub roots: &'a [f64],
     /// Residual.
@@ -47,8 +48,8 @@ pub struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// Those of a frame.
-    pub fn of(data: &Data, whitened: &Whitened<'a>) -> Self {
+    /// Those of a frame, where frames are off by a `jitter`.
+    pub fn of(data: &Data, whitened: &Whitened<'a>, jitter: Jitter) -> Self {
         let Whitened { frame, roots, residual, .. } = *whitened;
         let times = |values: &[f64]| -> Vec<f64> {
             pulp::Arch::new()
@@ -61,7 +62,8 @@ impl<'a> Rows<'a> {
                 *constant = 0.0;
             }
         }
-        Self { own, position: times(&frame.position), roots, residual }
+        let errors = set_errors::tangents(jitter, whitened, &own, times(&frame.position));
+        Self { own, errors, roots, residual }
     }
 }
 
@@ -76,7 +78,7 @@ impl Block {
         Self {
             full: DMatrix::zeros(columns + 1, columns + 1),
             mixed: DMatrix::zeros(OWN * pixels, columns + 1),
-            position: vec![DVector::zeros(0); sets],
+            errors: vec![DMatrix::zeros(0, 0); sets],
             waiting: Waiting::default(),
             values: Vec::new(),
         }
@@ -86,33 +88,43 @@ impl Block {
     pub fn join(&mut self, other: Self) {
         self.full += other.full;
         self.mixed += other.mixed;
-        for (a, b) in self.position.iter_mut().zip(other.position) {
+        for (a, b) in self.errors.iter_mut().zip(other.errors) {
             if a.is_empty() {
                 *a = b;
             }
         }
     }
 
-    /// With `rows` of a frame of number `set`, in which the columns `shared` act, and `own` ones that are counted from `first` on.
+    /// With `rows` of a frame of number `set`, whose errors stand at `places` among those of the set, in which the columns `shared` act, and `own` ones that
+    /// are counted from `first` on.
     ///
     /// Shares come column after column. Products are made in single precision, of a frame with itself, and of a few frames with the pixels' own numbers, and
     /// then summed in double: what each of them rounds off is another.
-    pub fn add(&mut self, set: usize, rows: &Rows, shared: &Acting, own: &Acting, first: usize) {
+    pub fn add(
+        &mut self,
+        set: usize,
+        places: &[usize],
+        rows: &Rows,
+        shared: &Acting,
+        own: &Acting,
+        first: usize,
+    ) {
         let (pixels, last) = (rows.roots.len(), self.full.nrows() - 1);
-        // The patterns, the residual, and the set's position.
+        // The patterns, the residual, and the errors.
         let before = shared.patterns.len();
         let residual = before + own.patterns.len();
-        let position = residual + 1;
+        let (errors, end) = (residual + 1, residual + 1 + places.len());
         let mut values = std::mem::take(&mut self.values);
-        values.resize(pixels * (position + 1), 0.0);
+        values.resize(pixels * end, 0.0);
         let patterns = shared.patterns.iter().chain(&own.patterns);
-        let mut sizes = vec![1.0; position + 1];
+        let mut sizes = vec![1.0; end];
         for ((values, size), pattern) in values.chunks_exact_mut(pixels).zip(&mut sizes).zip(patterns) {
             debug_assert_eq!(pattern.len(), pixels);
             pulp::Arch::new().dispatch(|| *size = times(rows.roots, pattern, values));
         }
-        for (number, of) in [(residual, rows.residual), (position, &rows.position[..])] {
-            let values = &mut values[pixels * number..pixels * (number + 1)];
+        let of_errors = rows.errors.iter().map(|error| &error[..]);
+        let last_rows = values[pixels * residual..].chunks_exact_mut(pixels);
+        for (values, of) in last_rows.zip(std::iter::once(rows.residual).chain(of_errors)) {
             values.iter_mut().zip(of).for_each(|(value, &of)| *value = of as f32);
         }
         let own = own.shares.iter().map(|share| share.after(first, before));
@@ -121,10 +133,10 @@ impl Block {
         let sized = |share: Share| Share { factor: share.factor * sizes[share.pattern], ..share };
         let shares: Vec<Share> = shares.map(sized).collect();
         debug_assert!(shares.is_sorted_by_key(|share| share.column));
-        self.wait(rows, &values[..pixels * position], &shares);
+        self.wait(rows, &values[..pixels * errors], &shares);
         let product = squared(&values, pixels);
         let columns: Vec<&[Share]> = shares.chunk_by(|a, b| a.column == b.column).collect();
-        let mut with = vec![0.0; position + 1];
+        let mut with = vec![0.0; end];
         for (place, of) in columns.iter().enumerate() {
             let column = of[0].column;
             with.fill(0.0);
@@ -135,7 +147,9 @@ impl Block {
                     .zip(products)
                     .for_each(|(sum, &value)| *sum += share.factor * f64::from(value));
             }
-            self.position[set][column] += with[position];
+            for (&place, with) in places.iter().zip(&with[errors..]) {
+                self.errors[set][(place, column)] += with;
+            }
             let mut sums = self.full.column_mut(column);
             let sums = sums.as_mut_slice();
             for share in columns[place..].iter().copied().flatten() {
@@ -282,13 +296,13 @@ mod tests {
         let mut block = Block::empty(PIXELS, count, 2);
         let (mut full, mut mixed) =
             (DMatrix::<f64>::zeros(count + 1, count + 1), DMatrix::<f64>::zeros(OWN * PIXELS, count + 1));
-        let mut position = vec![DVector::<f64>::zeros(count + 1); 2];
+        let mut position = vec![DMatrix::<f64>::zeros(1, count + 1); 2];
         for frame in 0..FRAMES {
             let seed = |n: usize| draws(1000 * frame as u64 + n as u64);
             let (roots, residual) = (seed(1).iter().map(|v| v.abs()).collect::<Vec<_>>(), seed(2));
             let rows = Rows {
                 own: [seed(3), seed(4), seed(5), seed(6)],
-                position: seed(7),
+                errors: vec![seed(7)],
                 roots: &roots,
                 residual: &residual,
             };
@@ -305,8 +319,8 @@ mod tests {
                 own.column(2 + number, other.clone());
             }
             let set = frame % 2;
-            block.position[set].resize_vertically_mut(count + 1, 0.0);
-            block.add(set, &rows, &shared, &own, first);
+            block.errors[set].resize_mut(1, count + 1, 0.0);
+            block.add(set, &[0], &rows, &shared, &own, first);
             let sum =
                 |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..PIXELS).map(|p| roots[p] * of(p)).collect() };
             let mut columns = vec![
@@ -320,7 +334,8 @@ mod tests {
                 for (other, with) in &columns {
                     full[(*number, *other)] += column.iter().zip(with).map(|(x, y)| x * y).sum::<f64>();
                 }
-                position[set][*number] += column.iter().zip(&rows.position).map(|(x, y)| x * y).sum::<f64>();
+                position[set][(0, *number)] +=
+                    column.iter().zip(&rows.errors[0]).map(|(x, y)| x * y).sum::<f64>();
                 for (place, own) in rows.own.iter().flatten().enumerate() {
                     mixed[(place, *number)] += own * column[place % PIXELS];
                 }
@@ -329,8 +344,8 @@ mod tests {
         block.settle();
         assert!((&block.full - full.lower_triangle()).amax() < ROUNDING * full.amax(), "{many}");
         assert!((&block.mixed - &mixed).amax() < ROUNDING * mixed.amax(), "{many}");
-        let is_same = |(a, b): (&DVector<f64>, &DVector<f64>)| (a - b).amax() < ROUNDING * b.amax();
-        assert!(block.position.iter().zip(&position).all(is_same), "{many}");
+        let is_same = |(a, b): (&DMatrix<f64>, &DMatrix<f64>)| (a - b).amax() < ROUNDING * b.amax();
+        assert!(block.errors.iter().zip(&position).all(is_same), "{many}");
         assert!(full.amax() > 1.0 && block.full.column(0).amax() == 0.0);
     }
 

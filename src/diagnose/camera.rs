@@ -3,8 +3,8 @@
 use super::columns::Column;
 use super::data::Data;
 use super::fit::Fit;
-use super::gram::Noise;
 use super::judge::Judgement;
+use super::noise::Noise;
 use super::noise::ROUNDING_DN2;
 use crate::recording::{BASELINE, Camera};
 

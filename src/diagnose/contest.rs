@@ -2,7 +2,7 @@
 
 use super::data::Data;
 use super::fit::{Fit, fit_until};
-use super::gram::Noise;
+use super::noise::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
 

@@ -2,8 +2,9 @@
 
 use super::columns::{Column, Tangents};
 use super::data::Data;
-use super::gram::{Gram, Noise, Projected, Whitened};
+use super::gram::{Gram, Projected, Whitened};
 use super::lines::Series;
+use super::noise::Noise;
 use super::pieces::Piece;
 use super::start::linear;
 use super::watchdog::{ENOUGH, descend};

@@ -5,6 +5,8 @@ use super::block::{Block, Rows};
 use super::columns::{Frame, OWN, Tangents};
 use super::data::Data;
 use super::encoder_noise::jitter;
+use super::noise::Noise;
+use super::set_errors::{self, Jitter, SetErrors, explained};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
 
@@ -13,10 +15,10 @@ use rayon::prelude::*;
 pub struct Gram {
     /// The pixels' own numbers against each other, J' W J: a value a pixel of each pair of them.
     own: Vec<Vec<f64>>,
-    /// A set's position against itself.
-    square: Vec<f64>,
-    /// A set's position against the pixels' own numbers, number after number.
-    position_own: Vec<Vec<f32>>,
+    /// Errors that samples of a set share, set by set.
+    errors: Vec<SetErrors>,
+    /// What frames are off by at random.
+    jitter: Jitter,
     /// Columns that are solved together, each block by itself.
     blocks: Vec<Block>,
     /// Sum of squares of the whitened residual, and samples.
@@ -48,51 +50,14 @@ pub struct Whitened<'a> {
     pub roots: &'a [f64],
     /// Residual over the noise.
     pub residual: &'a [f64],
+    /// The target's velocity, m/s.
+    pub velocity_m_s: f64,
 }
 
-/// Variance of the noise at a signal, DN².
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Noise {
-    /// Read noise and quantisation, DN².
-    pub floor: f64,
-    /// Shot noise, DN² a DN.
-    pub slope: f64,
-    /// Noise in proportion to the signal, relative, squared.
-    pub square: f64,
-}
-
-impl Noise {
-    /// One over the variance.
-    #[inline(always)]
-    pub fn weight(&self, signal_dn: f64) -> f64 {
-        1.0 / self.variance(signal_dn)
-    }
-
-    #[inline(always)]
-    fn variance(&self, signal_dn: f64) -> f64 {
-        let signal_dn = signal_dn.max(0.0);
-        self.floor + signal_dn * (self.slope + signal_dn * self.square)
-    }
-
-    /// Sum of the logarithms of the variance at the model's signals, whose weights have these `roots`, over that at the measured `signals`. A model whose
-    /// signals are too great has too great a variance, and chi squared alone would prefer it.
-    pub fn ln_variance(&self, signals: &[f32], roots: &[f64]) -> f64 {
-        let ratio = |(&measured, &root): (&f32, &f64)| match root > 0.0 {
-            true => root * root * self.variance(f64::from(measured)),
-            false => 1.0,
-        };
-        let of_some =
-            |(signals, roots): (&[f32], &[f64])| signals.iter().zip(roots).map(ratio).product::<f64>().ln();
-        -signals.chunks(LOGARITHM).zip(roots.chunks(LOGARITHM)).map(of_some).sum::<f64>()
-    }
-}
-
-/// So many ratios are multiplied before the logarithm is taken.
-const LOGARITHM: usize = 8;
 /// Sets are summed in so many chunks, of so many sets at least and at most.
 const CHUNKS: usize = 16;
 const CHUNK: (usize, usize) = (8, 64);
-/// So many sets' positions are freed of the pixels' own numbers at a time.
+/// So many sets' errors are freed of the pixels' own numbers at a time, or those of one set.
 const TOGETHER: usize = 64;
 /// Residuals beyond so many standard deviations count as that many.
 const WINSOR: f64 = 4.0;
@@ -117,11 +82,11 @@ pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise
 }
 
 impl Gram {
-    fn empty(pixels: usize, columns: &[usize], sets: usize) -> Self {
+    fn empty(pixels: usize, columns: &[usize], sets: usize, jitter: Jitter) -> Self {
         Self {
             own: vec![vec![0.0; pixels]; PAIRS.len()],
-            square: vec![0.0; sets],
-            position_own: vec![Vec::new(); sets],
+            errors: vec![SetErrors::default(); sets],
+            jitter,
             blocks: columns.iter().map(|&columns| Block::empty(pixels, columns, sets)).collect(),
             chi2: 0.0,
             samples: 0,
@@ -131,8 +96,7 @@ impl Gram {
 
     fn join(mut self, other: Self) -> Self {
         self.own.iter_mut().flatten().zip(other.own.iter().flatten()).for_each(|(a, b)| *a += b);
-        self.square.iter_mut().zip(other.square).for_each(|(a, b)| *a += b);
-        for (a, b) in self.position_own.iter_mut().zip(other.position_own) {
+        for (a, b) in self.errors.iter_mut().zip(other.errors) {
             if a.is_empty() {
                 *a = b;
             }
@@ -190,60 +154,59 @@ impl Gram {
         indexed
             .par_chunks(chunk)
             .map(|chunk| {
-                let mut sums = Self::empty(pixels, &columns, count);
+                let mut sums = Self::empty(pixels, &columns, count, noise.jitter);
                 let mut visited = T::default();
                 for &(number, (take, set)) in chunk {
-                    sums.position_own[number] = vec![0.0; OWN * pixels];
-                    for (block, columns) in sums.blocks.iter_mut().zip(&columns) {
-                        block.position[number] = DVector::zeros(columns + 1);
-                    }
                     let frames = data.takes[take].frames;
+                    let errors = set_errors::count(noise.jitter, frames);
+                    sums.errors[number] = SetErrors::empty(errors, pixels);
+                    for (block, columns) in sums.blocks.iter_mut().zip(&columns) {
+                        block.errors[number] = DMatrix::zeros(errors, columns + 1);
+                    }
                     for index in set * frames..(set + 1) * frames {
                         let frame = tangents.frame(take, index);
                         let (roots, residual) = whiten(data, take, index, &frame.base, noise);
                         let (roots, residual) = (&roots[..], &residual[..]);
-                        let whitened = Whitened { take, set: number, index, frame: &frame, roots, residual };
+                        let velocity_m_s = data.takes[take].moments[index].velocity_m_s;
+                        let frame = &frame;
+                        let whitened =
+                            Whitened { take, set: number, index, frame, roots, residual, velocity_m_s };
                         visited = visit(visited, &whitened);
                         let measured = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
                         sums.ln_variance += noise.ln_variance(measured, roots);
-                        sums.add(data, &whitened, &fill(take, index, &frame));
+                        sums.add(data, &whitened, &fill(take, index, frame));
                     }
                 }
                 sums.blocks.iter_mut().for_each(Block::settle);
                 (sums, visited)
             })
             .reduce_with(|(a, x), (b, y)| (a.join(b), merge(x, y)))
-            .unwrap_or_else(|| (Self::empty(pixels, &columns, count), T::default()))
+            .unwrap_or_else(|| (Self::empty(pixels, &columns, count, noise.jitter), T::default()))
     }
 
     /// With a frame, and what each block has there beside the columns that all share.
     fn add(&mut self, data: &Data, whitened: &Whitened, filled: &Filled) {
-        let rows = Rows::of(data, whitened);
-        let set = whitened.set;
+        let rows = Rows::of(data, whitened, self.jitter);
+        let (set, moment) = (whitened.set, &data.takes[whitened.take].moments[whitened.index]);
+        let places: Vec<usize> = set_errors::places(self.jitter, moment.frame).collect();
         pulp::Arch::new().dispatch(|| {
             for (sums, (a, b)) in self.own.iter_mut().zip(PAIRS) {
                 for ((sum, a), b) in sums.iter_mut().zip(&rows.own[a]).zip(&rows.own[b]) {
                     *sum += a * b;
                 }
             }
-            let pixels = rows.roots.len();
-            for (sums, own) in self.position_own[set].chunks_exact_mut(pixels).zip(&rows.own) {
-                for ((sum, own), position) in sums.iter_mut().zip(own).zip(&rows.position) {
-                    *sum += (own * position) as f32;
-                }
-            }
         });
-        self.square[set] += rows.position.iter().map(|position| position * position).sum::<f64>();
+        self.errors[set].add(&places, &rows.errors, &rows.own);
         self.chi2 += rows.residual.iter().map(|residual| residual * residual).sum::<f64>();
         self.samples += rows.roots.iter().filter(|root| **root > 0.0).count();
         let shared = &whitened.frame.columns;
         for (block, filled) in self.blocks.iter_mut().zip(filled) {
-            block.add(set, &rows, shared, filled, whitened.frame.count);
+            block.add(set, &places, &rows, shared, filled, whitened.frame.count);
         }
     }
 
-    /// The normal equations of each pixel's own numbers, solved.
-    fn inverses(&self) -> Vec<Matrix4<f64>> {
+    /// The normal equations of each pixel's own numbers, solved, and what these leave of the sets' errors.
+    fn solved(&self) -> Solved {
         let of = |pixel: usize| {
             let mut own = Matrix4::zeros();
             for (sums, (a, b)) in self.own.iter().zip(PAIRS) {
@@ -252,23 +215,29 @@ impl Gram {
             }
             inverse(&own)
         };
-        (0..self.own[0].len()).map(of).collect()
+        let inverses: Vec<Matrix4<f64>> = (0..self.own[0].len()).map(of).collect();
+        let left = self.errors.par_iter().map(|errors| errors.left(&inverses)).collect();
+        Solved { inverses, left }
     }
 
     /// Solves everything that the columns of the first block do not decide: [`Projected`]. `jitter_m2`: variance of the encoder's
     /// reading, set by set; where it is not given it is estimated.
     pub fn project(&self, jitter_m2: Option<f64>) -> Projected {
-        let inverses = self.inverses();
-        self.project_block(&self.blocks[0], &inverses, jitter_m2)
+        self.project_block(&self.blocks[0], &self.solved(), jitter_m2)
     }
 
     /// The same for every block.
     pub fn project_all(&self, jitter_m2: f64) -> Vec<Projected> {
-        let inverses = self.inverses();
-        self.blocks.par_iter().map(|block| self.project_block(block, &inverses, Some(jitter_m2))).collect()
+        let solved = self.solved();
+        self.blocks.par_iter().map(|block| self.project_block(block, &solved, Some(jitter_m2))).collect()
     }
 
-    fn project_block(&self, block: &Block, inverses: &[Matrix4<f64>], jitter_m2: Option<f64>) -> Projected {
+    fn project_block(
+        &self,
+        block: &Block,
+        Solved { inverses, left }: &Solved,
+        jitter_m2: Option<f64>,
+    ) -> Projected {
         let (size, pixels) = (block.full.nrows(), inverses.len());
         let mut solved = block.mixed.clone();
         for mut column in solved.column_iter_mut() {
@@ -282,32 +251,39 @@ impl Gram {
         let settled = own[(size - 1, size - 1)];
         let mut full = &block.full - own;
         full.fill_upper_triangle_with_lower_triangle();
-        let mut sets = Vec::new();
-        let turned = solved.transpose();
-        let of_sets = block.position.iter().zip(&self.square).zip(&self.position_own);
-        let seen: Vec<_> = of_sets.filter(|((sums, _), own)| !sums.is_empty() && !own.is_empty()).collect();
-        for seen in seen.chunks(TOGETHER) {
-            let own = seen.iter().flat_map(|(_, own)| own.iter().map(|&own| f64::from(own)));
-            let own = DMatrix::from_iterator(solved.nrows(), seen.len(), own);
-            let taken = &turned * &own;
-            for (number, &((sums, square), _)) in seen.iter().enumerate() {
-                let own = own.column(number);
-                let own = (0..pixels).map(|pixel| own_of(own.as_slice(), pixel));
-                let absorbed: f64 = own.zip(inverses).map(|(own, inverse)| own.dot(&(inverse * own))).sum();
-                if square - absorbed > 0.0 {
-                    sets.push((sums - taken.column(number), square - absorbed));
-                }
+        let of_sets = block.errors.iter().zip(&self.errors).zip(left);
+        let seen: Vec<_> = of_sets.filter_map(|(of, left)| Some((of, left.as_ref()?))).collect();
+        let errors = seen.first().map_or(1, |(_, left)| left.nrows());
+        // Some sets' errors by columns, one below the other, and what is left of each set's.
+        let mut sums: Vec<(DMatrix<f64>, Vec<(usize, &DMatrix<f64>)>)> = Vec::new();
+        for seen in seen.chunks((TOGETHER / errors).max(1)) {
+            let own: Vec<f64> = seen.iter().flat_map(|((_, errors), _)| errors.own()).collect();
+            let own = DMatrix::from_vec(solved.nrows(), own.len() / solved.nrows(), own);
+            let mut of = own.transpose() * &solved;
+            of.neg_mut();
+            let mut first = 0;
+            let mut lefts = Vec::new();
+            for &((sums, _), left) in seen {
+                let mut rows = of.rows_mut(first, left.nrows());
+                rows += sums;
+                lefts.push((first, left));
+                first += left.nrows();
             }
+            sums.push((of, lefts));
         }
         let residual = size - 1;
         let jitter_m2 = jitter_m2.unwrap_or_else(|| {
-            jitter(&sets.iter().map(|(sums, square)| (sums[residual], *square)).collect::<Vec<_>>())
+            let of = |(sums, lefts): &(DMatrix<f64>, Vec<(usize, &DMatrix<f64>)>)| -> Vec<(f64, f64)> {
+                lefts.iter().map(|&(first, left)| (sums[(first, residual)], left[(0, 0)])).collect()
+            };
+            jitter(&sums.iter().flat_map(of).filter(|(_, square)| *square > 0.0).collect::<Vec<_>>())
         });
         let mut freedom = 0.0;
-        for (sums, square) in &sets {
-            let share = jitter_m2 / (1.0 + jitter_m2 * square);
-            full.ger(-share, sums, sums, 1.0);
-            freedom += (jitter_m2 * square).ln_1p();
+        for (sums, lefts) in &mut sums {
+            for &(first, left) in lefts.iter() {
+                freedom += explained(sums.rows_mut(first, left.nrows()), left, self.jitter, jitter_m2);
+            }
+            full -= sums.transpose() * &*sums;
         }
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();
@@ -315,6 +291,14 @@ impl Gram {
         let chi2 = full[(residual, residual)] + freedom + self.ln_variance;
         Projected { matrix, vector, raw, jitter_m2, chi2, settled, solved }
     }
+}
+
+/// Numbers that the columns do not decide, solved.
+struct Solved {
+    /// Of the normal equations of each pixel's own numbers.
+    inverses: Vec<Matrix4<f64>>,
+    /// What these leave of each set's errors, against each other; nothing where that is nothing.
+    left: Vec<Option<DMatrix<f64>>>,
 }
 
 /// A pixel's own numbers among those of all, number after number.

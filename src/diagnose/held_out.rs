@@ -7,8 +7,9 @@
 use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::fit::{Fit, fit, improved, settled};
-use super::gram::{Noise, whiten};
+use super::gram::whiten;
 use super::jitters::{self, Jitters};
+use super::noise::Noise;
 use crate::spec::SCHEMES;
 use crate::units::phase_rad;
 use num_complex::Complex64;

@@ -3,16 +3,16 @@
 use super::clusters::Level;
 use super::data::Data;
 use super::fit::{Fit, fit, unfitted};
-use super::gram::Noise;
 use super::held_out::Predictor;
 use super::lines::{FLICKER, FLICKER_HZ};
 use super::location::{LOCATED_NATS, Located, Location, locate};
+use super::noise::Noise;
 use super::noise::beyond;
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::{Piece, tolerance};
 use super::random::{
     self, JITTERS, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation,
-    is_beyond_forms, is_noisier, of_name, random_effect, two_jitters, words,
+    is_beyond_forms, is_noisier, jitter, of_name, random_effect, two_jitters, words,
 };
 use super::search::{Found, Named, Search, tolerated};
 use super::source::{Shown, is_one, shown};
@@ -113,6 +113,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         in_proportion += more.in_proportion;
         square_sigma = f64::max(square_sigma, more.square_sigma);
         (found, [baseline, end]) = searched(data, unfitted(data, noise), noise);
+    }
+    if let Some((beside, ends, of)) = beside_jitter(data, noise, &end) {
+        (found, [baseline, end], noise) = (beside, ends, of);
     }
     let mut places = places(data, &baseline);
     // What random errors let appear among the columns is not asserted.
@@ -300,6 +303,14 @@ fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, [Location; 2]) 
         after = end(&found);
     }
     (found, [before, after])
+}
+
+/// The same beside errors of frames, where the `end` of a search shows such as a jitter makes, and a search that has them among the noise leaves nothing else:
+/// what frames share is no evidence for anything that does it in another way.
+fn beside_jitter(data: &Data, noise: Noise, end: &Location) -> Option<(Found, [Location; 2], Noise)> {
+    let noise = Noise { jitter: jitter(data, end)?, ..noise };
+    let (found, ends) = searched(data, unfitted(data, noise), noise);
+    random_effect(data, &ends[1]).is_some().then_some((found, ends, noise))
 }
 
 /// Coordinates that stand out, most significant first.

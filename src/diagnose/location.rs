@@ -7,8 +7,9 @@ use super::coordinates::{COORDINATES, View};
 use super::data::Data;
 use super::evidence::{Block, Evidence, Greatest};
 use super::fit::Fit;
-use super::gram::{Gram, Noise, Projected, Whitened};
+use super::gram::{Gram, Projected, Whitened};
 use super::jitters::Jitters;
+use super::noise::Noise;
 use super::parts::parts;
 use super::profiles::{Profile, Profiles};
 use super::ranges::Ranges;
@@ -108,9 +109,14 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         Located::wave("code", shape, wave.found)
     }));
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
+    let mut ranked = clusters.ranked();
+    // Beside errors that the noise has, columns are no more than they seem.
+    if noise.jitter != [0.0; 2] {
+        ranked.iter_mut().for_each(|cluster| cluster.inflation = 1.0);
+    }
     Location {
         columns,
-        clusters: clusters.ranked(),
+        clusters: ranked,
         jitters: clusters.jitters,
         take: base.series.worst_take(),
         curves: profiles.curves(&ranges),

@@ -36,6 +36,7 @@ mod profiles;
 mod random;
 mod ranges;
 mod search;
+mod set_errors;
 mod settle;
 mod simpler;
 mod source;
@@ -53,11 +54,11 @@ pub use alone::Alone;
 pub use camera::camera_with;
 pub use data::{Assumed, Data, Take};
 pub use fit::Fit;
-pub use gram::Noise;
 pub use held_out::{Agreement, HeldOut};
 pub use judge::{Judgement, Place, Verdict};
 pub use library::library;
 pub use location::{Located, Location};
+pub use noise::Noise;
 pub use pass::Detectable;
 pub use profiles::{Point, Profile};
 pub use search::{Found, Named};
@@ -74,5 +75,6 @@ pub fn stated_noise(data: &Data) -> Noise {
         floor: read_dn * read_dn + unit_dn * unit_dn / 12.0,
         slope: camera.gain_e_per_dn.recip(),
         square: 0.0,
+        jitter: [0.0; 2],
     }
 }

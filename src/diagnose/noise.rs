@@ -4,10 +4,53 @@
 use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::fit::Fit;
-use super::gram::{Noise, whiten};
+use super::gram::whiten;
 use super::random::CLUSTER_NATS;
+use super::set_errors::Jitter;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
+
+/// Variance of the noise at a signal, DN², and what frames are off by at random.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// Read noise and quantisation, DN².
+    pub floor: f64,
+    /// Shot noise, DN² a DN.
+    pub slope: f64,
+    /// Noise in proportion to the signal, relative, squared.
+    pub square: f64,
+    /// What a frame's samples are off by together.
+    pub jitter: Jitter,
+}
+
+impl Noise {
+    /// One over the variance.
+    #[inline(always)]
+    pub fn weight(&self, signal_dn: f64) -> f64 {
+        1.0 / self.variance(signal_dn)
+    }
+
+    #[inline(always)]
+    fn variance(&self, signal_dn: f64) -> f64 {
+        let signal_dn = signal_dn.max(0.0);
+        self.floor + signal_dn * (self.slope + signal_dn * self.square)
+    }
+
+    /// Sum of the logarithms of the variance at the model's signals, whose weights have these `roots`, over that at the measured `signals`. A model whose
+    /// signals are too great has too great a variance, and chi squared alone would prefer it.
+    pub fn ln_variance(&self, signals: &[f32], roots: &[f64]) -> f64 {
+        let ratio = |(&measured, &root): (&f32, &f64)| match root > 0.0 {
+            true => root * root * self.variance(f64::from(measured)),
+            false => 1.0,
+        };
+        let of_some =
+            |(signals, roots): (&[f32], &[f64])| signals.iter().zip(roots).map(ratio).product::<f64>().ln();
+        -signals.chunks(LOGARITHM).zip(roots.chunks(LOGARITHM)).map(of_some).sum::<f64>()
+    }
+}
+
+/// So many ratios are multiplied before the logarithm is taken.
+const LOGARITHM: usize = 8;
 
 /// So many frames at most are looked at, evenly over all.
 const FRAMES: usize = 64;
@@ -67,11 +110,11 @@ fn line(points: &[(f64, f64)]) -> Noise {
     let slope = if determinant > 1e-9 * n * xx { ((n * xy - x * y) / determinant).max(0.0) } else { 0.0 };
     let floor = if n > 0.0 { (y - slope * x) / n } else { ROUNDING_DN2 };
     if floor >= ROUNDING_DN2 {
-        return Noise { floor, slope, square: 0.0 };
+        return Noise { floor, slope, square: 0.0, jitter: [0.0; 2] };
     }
     // All of it by the signal.
     let slope = if xx > 0.0 { ((xy - ROUNDING_DN2 * x) / xx).max(0.0) } else { 0.0 };
-    Noise { floor: ROUNDING_DN2, slope, square: 0.0 }
+    Noise { floor: ROUNDING_DN2, slope, square: 0.0, jitter: [0.0; 2] }
 }
 
 /// The noise that residuals show.
@@ -130,6 +173,7 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
         floor: stated.floor + parts[0],
         slope: stated.slope + parts[1],
         square: stated.square + parts[2],
+        ..stated
     };
     Beyond { noise, in_proportion, square_sigma: sigma_of_square(&points, &parts) }
 }

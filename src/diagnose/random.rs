@@ -3,6 +3,7 @@
 use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
 use super::location::{Located, Location};
+use super::set_errors::Jitter;
 use super::steady::is_steady;
 
 /// Evidence (nats) from which on noise that has more than was stated counts, and random errors that effects of the registry make.
@@ -177,6 +178,14 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
         return None;
     }
     Some(RandomEffect { name, strength: Strength { value: sigma, sigma: known_to }, ln_bayes, inflation })
+}
+
+/// What frames are off by, phase (rad) and time (s), where the strongest errors of a `location` are those of a jitter of the registry.
+pub fn jitter(data: &Data, location: &Location) -> Option<Jitter> {
+    effect_of(errors(data, location).first()?)?;
+    let moves = location.jitters.frames().iter().any(|frame| frame.time.1 > 0.0);
+    let (phase_rad, time_s) = location.jitters.likeliest([true, moves]);
+    (phase_rad > 0.0 || time_s > 0.0).then_some([phase_rad, time_s])
 }
 
 /// Whether a random effect of this evidence, nats, is more than what looks so of the chi squared that the forms of named effects may leave.

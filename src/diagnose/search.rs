@@ -5,7 +5,7 @@ use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
 use super::fit::{Fit, fit};
-use super::gram::Noise;
+use super::noise::Noise;
 use super::pass::{Detectable, Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::simpler::Simpler;

@@ -1,8 +1,8 @@
 //! What the recordings themselves say of the mask, and of sets that are unlike all others.
 
 use super::data::Data;
-use super::gram::Noise;
 use super::lines::{Series, SetSeen};
+use super::noise::Noise;
 use super::start::BACKGROUND_M;
 use crate::physics::cos_sin;
 use crate::units::phase_rad;
