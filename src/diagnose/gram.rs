@@ -254,8 +254,7 @@ impl Gram {
         let of_sets = block.errors.iter().zip(&self.errors).zip(left);
         let seen: Vec<_> = of_sets.filter_map(|(of, left)| Some((of, left.as_ref()?))).collect();
         let errors = seen.first().map_or(1, |(_, left)| left.nrows());
-        // Some sets' errors by columns, one below the other, and what is left of each set's.
-        let mut sums: Vec<(DMatrix<f64>, Vec<(usize, &DMatrix<f64>)>)> = Vec::new();
+        let mut sums: Vec<Stack> = Vec::new();
         for seen in seen.chunks((TOGETHER / errors).max(1)) {
             let own: Vec<f64> = seen.iter().flat_map(|((_, errors), _)| errors.own()).collect();
             let own = DMatrix::from_vec(solved.nrows(), own.len() / solved.nrows(), own);
@@ -273,7 +272,7 @@ impl Gram {
         }
         let residual = size - 1;
         let jitter_m2 = jitter_m2.unwrap_or_else(|| {
-            let of = |(sums, lefts): &(DMatrix<f64>, Vec<(usize, &DMatrix<f64>)>)| -> Vec<(f64, f64)> {
+            let of = |(sums, lefts): &Stack| -> Vec<(f64, f64)> {
                 lefts.iter().map(|&(first, left)| (sums[(first, residual)], left[(0, 0)])).collect()
             };
             jitter(&sums.iter().flat_map(of).filter(|(_, square)| *square > 0.0).collect::<Vec<_>>())
@@ -292,6 +291,9 @@ impl Gram {
         Projected { matrix, vector, raw, jitter_m2, chi2, settled, solved }
     }
 }
+
+/// Some sets' errors by columns, one below the other; in which row each set's begin, and what is left of them.
+type Stack<'a> = (DMatrix<f64>, Vec<(usize, &'a DMatrix<f64>)>);
 
 /// Numbers that the columns do not decide, solved.
 struct Solved {

@@ -2,6 +2,7 @@
 
 use super::data::Data;
 use super::evidence::tail;
+use super::gaps::{gaps, seen_cycles};
 use super::gram::Whitened;
 use super::periodogram::{ANY, FINENESS, Scan, Sought, Sum, add_powers, chi2, greatest, longest};
 
@@ -53,7 +54,7 @@ const CYCLES_M: (f64, f64) = (0.6, 250.0);
 /// An encoder's error changes less than what it measures, and is seen at more than one of its phases. A line that has one phase at all places, as places on a
 /// grid have of some, would take the readings' own noise back out, by a slope of -1.
 const OF_ENCODER: Sought = Sought { constant: true, steepest: 0.3, most_alike: 0.5 };
-/// Of a line that is seen nearly at rest, so many cycles over the whole length are a drift too.
+/// Of a line that is seen nearly at rest, so many cycles from frame to frame, all added up, are a drift too.
 const DRIFT_CYCLES: f64 = 3.0;
 /// The same where the line is twice the mains' frequency, which is known beforehand: Hz, and by what share it is off at most.
 const MAINS_DRIFT_CYCLES: f64 = 1.5;
@@ -134,6 +135,13 @@ impl Series {
         strongest(&self.by_take(), ends, self.frame_period_s)
     }
 
+    /// Whether all recordings see a lamp's flicker at rest: it is a drift to them, and a drift may be a flicker.
+    pub fn flicker_rests(&self) -> bool {
+        let gaps: Vec<_> = self.by_take().iter().map(|take| gaps(take)).collect();
+        let rests = |mains: &f64| gaps.iter().all(|gaps| seen_cycles(gaps, *mains) < MAINS_DRIFT_CYCLES);
+        !gaps.is_empty() && TWICE_MAINS_HZ.iter().any(rests)
+    }
+
     /// Where each recording has a line of the ambient light that is at `frequency_hz` in all, Hz: there or, where it clearly has more, near it.
     pub fn near(&self, frequency_hz: f64) -> Vec<f64> {
         let takes = self.by_take();
@@ -164,15 +172,14 @@ impl Series {
 
 /// The strongest line of all groups, each with a phase of its own (Lomb 1976, with the information as weights).
 ///
-/// Not those that go through whole turns within `period`, or nearly.
+/// Where frames are a `period` apart: not those that go through whole turns from each frame to the next, or nearly.
 pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> Option<Line> {
     let Scan { low, step, powers } = Scan::of(groups, ends, ANY)?;
-    let longest = longest(groups);
+    let gaps: Vec<Vec<(f64, f64)>> = groups.iter().map(|group| gaps(group)).collect();
     let is_drift = |number: usize| {
         let frequency = low + number as f64 * step;
         let cycles = if is_mains(frequency) { MAINS_DRIFT_CYCLES } else { DRIFT_CYCLES };
-        let turns = frequency * period;
-        period > 0.0 && (turns - turns.round()).abs() < cycles / longest * period
+        period > 0.0 && gaps.iter().all(|gaps| seen_cycles(gaps, frequency) < cycles)
     };
     let power = |number: usize| if is_drift(number) { 0.0 } else { powers[number] };
     let lines: Vec<f64> = (0..powers.len()).map(power).collect();
@@ -348,6 +355,19 @@ mod tests {
                 let found = strongest(&[group], FLICKER_HZ, 0.025).unwrap();
                 assert!(stated_hz.iter().any(|hz| (found.frequency - hz).abs() < 0.05), "{hz}: {found:?}");
             }
+        }
+    }
+
+    /// Frames 20 ms apart see 100 Hz at rest; sets that are 275 ms apart see it the other way round each time.
+    #[test]
+    fn a_line_that_sets_see_is_no_drift_though_frames_see_it_at_rest() {
+        let hz = 99.998;
+        for (between_s, is_seen) in [(0.275, true), (0.28, false)] {
+            let at = |n: usize| 0.02 * (n % 4) as f64 + between_s * (n / 4) as f64;
+            let group: Vec<(f64, Sum)> =
+                (0..400).map(|n| (at(n), ((TAU * hz * at(n) + 1.0).sin(), 1.0))).collect();
+            let line = strongest(&[group], FLICKER_HZ, 0.02).unwrap();
+            assert_eq!((line.frequency - hz).abs() < 0.01, is_seen, "{between_s}: {line:?}");
         }
     }
 

@@ -14,6 +14,7 @@ mod data;
 mod encoder_noise;
 mod evidence;
 mod fit;
+mod gaps;
 mod gram;
 mod grid;
 mod held_out;

@@ -65,6 +65,8 @@ enum Grouping {
     All,
     /// Those of recordings with as many frames a set.
     Scheme,
+    /// The same, but for recordings of many frames a set: numbers of each of these are many, and a weak effect shows in few of them.
+    FewFrames,
     /// Each recording has its own.
     Take,
 }
@@ -73,13 +75,15 @@ enum Grouping {
 /// anew. Each is tried in all these ways.
 const GROUPINGS: [(&str, &[Grouping]); 7] = [
     ("ambient_flicker", &[Grouping::All, Grouping::Take]),
-    ("phase_step_errors", &[Grouping::Scheme]),
-    ("frame_gain", &[Grouping::Scheme]),
+    ("phase_step_errors", &[Grouping::Scheme, Grouping::FewFrames]),
+    ("frame_gain", &[Grouping::Scheme, Grouping::FewFrames]),
     ("illumination_droop", &[Grouping::All, Grouping::Scheme]),
     ("illumination_drift", &[Grouping::All, Grouping::Take]),
     ("ambient_drift", &[Grouping::All, Grouping::Take]),
     ("phase_drift", &[Grouping::All, Grouping::Take]),
 ];
+/// So many frames a set are many.
+const MANY_FRAMES: usize = 16;
 /// Effects that start with a corner, and the values at which they are tried.
 const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8])];
 
@@ -209,6 +213,10 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     };
     let (strengths, instead) = (strengths(false), strengths(true));
     let mut variants = Vec::new();
+    let of_many = data.schemes().into_iter().filter(|&frames| frames >= MANY_FRAMES).count();
+    let has_both = of_many > 0 && of_many < data.schemes().len();
+    let groupings: Vec<Grouping> =
+        groupings.iter().copied().filter(|by| *by != Grouping::FewFrames || has_both).collect();
     let seen_dn = if effect.name == SMOOTH.0 { data.span_dn() } else { f64::INFINITY };
     let full_scale_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
@@ -221,7 +229,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         choice.into_iter().for_each(|choice| values[choice] = chosen);
         // A phase shifter that has so many settings of its own has the same in all recordings.
         let is_shared = chosen > 1.0;
-        let groupings = if is_shared { &[Grouping::All][..] } else { groupings };
+        let groupings = if is_shared { &[Grouping::All][..] } else { &groupings[..] };
         let strengths =
             if is_shared { strengths.get(..chosen as usize).unwrap_or(&strengths) } else { &strengths[..] };
         for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
@@ -245,11 +253,12 @@ fn pieces(
     let groups: Vec<Vec<usize>> = match by {
         Grouping::All => vec![all],
         Grouping::Take => all.iter().map(|&take| vec![take]).collect(),
-        Grouping::Scheme => {
+        Grouping::Scheme | Grouping::FewFrames => {
             let of = |frames: usize| {
                 all.iter().copied().filter(|&take| data.takes[take].frames == frames).collect()
             };
-            data.schemes().into_iter().map(of).collect()
+            let is_looked_at = |frames: &usize| by == Grouping::Scheme || *frames < MANY_FRAMES;
+            data.schemes().into_iter().filter(is_looked_at).map(of).collect()
         }
     };
     groups
@@ -258,7 +267,7 @@ fn pieces(
             let frames = takes.iter().map(|&take| data.takes[take].frames).max().unwrap_or(0);
             // A parameter of a frame that there is not, and one that each recording has for itself.
             let there = |&number: &usize| match by {
-                Grouping::Scheme => number < frames,
+                Grouping::Scheme | Grouping::FewFrames => number < frames,
                 Grouping::All => !effect.parameters[number].is_of_recording,
                 Grouping::Take => true,
             };

@@ -5,13 +5,16 @@ use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
 use super::fit::{Fit, fit};
+use super::lines::FLICKER;
 use super::noise::Noise;
-use super::pass::{Detectable, Pass, THRESHOLD};
+use super::pass::{Detectable, Pass, RIVAL_NATS, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::simpler::Simpler;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
+/// What a flicker is that all frames see at rest.
+const DRIFT: &str = "ambient_drift";
 /// Beside so many, what the forms of these may leave is no further one.
 const MOST_TRUSTED: usize = 2;
 /// Nor one that alone, at the baseline, would have explained this share of what the first one did.
@@ -75,6 +78,13 @@ pub fn tolerated(named: &[Named]) -> f64 {
     named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
 }
 
+/// Two effects of which the strongest was taken first.
+#[derive(Debug, Clone)]
+struct Promised {
+    pieces: Vec<Piece>,
+    named: Vec<Named>,
+}
+
 /// A search, as far as it has come.
 #[derive(Debug)]
 pub struct Search<'a> {
@@ -86,6 +96,8 @@ pub struct Search<'a> {
     /// The fit with what is named.
     current: Fit,
     named: Vec<Named>,
+    /// What the tangents at the baseline promised, where that was two effects.
+    promised: Option<Promised>,
     /// The pass at the baseline, and what it says of each candidate alone.
     first: Option<(Pass, Vec<Alone>)>,
     is_over: bool,
@@ -96,7 +108,17 @@ impl<'a> Search<'a> {
     /// by `inflation`.
     pub fn new(data: &'a Data, baseline: Fit, noise: Noise, inflation: f64) -> Self {
         let current = baseline.clone();
-        Self { data, noise, inflation, baseline, current, named: Vec::new(), first: None, is_over: false }
+        Self {
+            data,
+            noise,
+            inflation,
+            baseline,
+            current,
+            named: Vec::new(),
+            promised: None,
+            first: None,
+            is_over: false,
+        }
     }
 
     /// What it finds when the forms of effects are trusted: what explains less than the others' forms may leave is named nevertheless, on clear
@@ -148,17 +170,57 @@ impl<'a> Search<'a> {
             baseline: self.baseline.clone(),
             current: self.current.clone(),
             named: self.named.clone(),
+            promised: self.promised.clone(),
             first: self.first.clone(),
             is_over: without.is_none(),
             ..*self
         });
         match next {
             Some((best, whole)) if best.blocks.len() + self.named.len() <= MOST_EFFECTS => {
+                if self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
+                    self.promise(&pass, &candidates, &whole);
+                }
                 self.is_over = !self.name(&pass, &candidates, best, &whole);
             }
-            _ => self.is_over = true,
+            _ => self.is_over = !self.reconsiders(),
         }
         without
+    }
+
+    /// Whether two effects that tangents at the baseline promised, of which one did not come, fit clearly better than what came: if so, these are named
+    /// instead. The strongest one alone may take on another shape, and leave to others what that cannot say.
+    fn reconsiders(&mut self) -> bool {
+        let Some(Promised { pieces, named }) = self.promised.take() else { return false };
+        let came = |name: &&Named| self.named.iter().any(|other| other.name == name.name);
+        if named.iter().all(|name| came(&name)) {
+            return false;
+        }
+        let fitted = fit(self.data, Some(&self.baseline), pieces, self.noise, &|_| true);
+        let cost = |fit: &Fit| 0.5 * (fit.chi2 + fit.unreached) + fit.columns.len() as f64;
+        let is_better = cost(&fitted) + RIVAL_NATS < cost(&self.current);
+        if is_better {
+            (self.current, self.named) = (fitted, named);
+        }
+        is_better
+    }
+
+    /// Keeps the two effects of the model `whole` in mind, whose strongest one comes first, alone.
+    fn promise(&mut self, pass: &Pass, candidates: &[Candidate], whole: &Model) {
+        let pieces = |&block: &usize| {
+            let of = &pass.blocks[block];
+            candidates[of.candidate].variants[of.variant].pieces.iter().cloned()
+        };
+        let rivals = pass.rivals(whole, candidates);
+        let named = |&block: &usize| Named {
+            name: pass.name(block, candidates),
+            ln_bayes: whole.ln_bayes,
+            score: pass.scores[block].unwrap_or((0.0, 0)),
+            rivals: rivals.clone(),
+        };
+        self.promised = Some(Promised {
+            pieces: whole.blocks.iter().flat_map(pieces).collect(),
+            named: whole.blocks.iter().map(named).collect(),
+        });
     }
 
     /// Fits what a `pass` says is `best` next, where that is a part of the model `whole`, and names it, if the fit keeps it.
@@ -216,6 +278,11 @@ impl<'a> Search<'a> {
         rivals.extend(near);
         let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, candidates) == rival);
         rivals.retain(|rival| !own(rival));
+        let drifts = best.blocks.iter().any(|&block| pass.name(block, candidates) == DRIFT);
+        let may_flicker = candidates.iter().any(|candidate| candidate.effect.name == FLICKER);
+        if drifts && may_flicker && current.series.flicker_rests() {
+            rivals.push(FLICKER.to_owned());
+        }
         rivals.extend(pass.near(&best, candidates));
         let mut known = BTreeSet::new();
         rivals.retain(|rival| known.insert(rival.clone()));
