@@ -93,6 +93,32 @@ fn single_effects_are_named_with_their_strength_and_held_out_sets_agree_better()
     }
 }
 
+/// Sums are rounded in the same order however many threads make them: an answer must not hang on it.
+#[test]
+fn the_answer_is_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), "campaign", &["lens_scatter", "clock_jitter"], "5");
+    let on = |threads: &str| {
+        let mut command = assert_cmd::Command::cargo_bin("vuris").unwrap();
+        command.env("RAYON_NUM_THREADS", threads).args([
+            "diagnose",
+            campaign.to_str().unwrap(),
+            "--json",
+            "-",
+        ]);
+        let output = command.output().unwrap();
+        assert!(output.status.success());
+        let mut verdict: Value = serde_json::from_slice(&output.stdout).unwrap();
+        verdict.as_object_mut().unwrap().remove("provenance");
+        verdict
+    };
+    let one = on("1");
+    assert!(!one["effects"].as_array().unwrap().is_empty(), "{one}");
+    for threads in ["2", "5"] {
+        assert_eq!(on(threads), one, "{threads}");
+    }
+}
+
 #[test]
 fn two_effects_are_found_together_and_a_report_shows_them() {
     let folder = tempfile::tempdir().unwrap();

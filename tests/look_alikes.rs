@@ -6,7 +6,7 @@ mod rewritten;
 
 use diagnosed::{names, parameter, verdict, vuris};
 use rewritten::{Sample, rewrite};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -180,6 +180,38 @@ fn a_strong_jitter_is_a_jitter() {
     assert_eq!(names_of("timing_jitter_of_frames:sigma_s=0.01"), ["timing_jitter_of_frames"]);
 }
 
+/// Where frames' errors are known, what they share is no evidence, and what they do not share is all there is.
+#[test]
+fn weak_effects_are_named_beside_a_strong_jitter() {
+    let jitter = "timing_jitter_of_frames:sigma_s=0.005";
+    let weak = [
+        "illumination_droop:relative=0.001",
+        "electrical_crosstalk:cosine_dn=0.1,sine_dn=0",
+        "phase_step_scale:relative=0.0004",
+    ];
+    for effect in weak {
+        let name = effect.split(':').next().unwrap();
+        assert_eq!(names_with(&[jitter, effect]), [name, "timing_jitter_of_frames"]);
+    }
+}
+
+/// Gains alone are said by errors of each step, too; with gains beside them errors of the steps are their scale.
+#[test]
+fn two_effects_are_those_that_fit_together() {
+    let effects = ["frame_gain:frame_1=0.002", "phase_step_scale:relative=0.002"];
+    assert_eq!(names_with(&effects), ["frame_gain", "phase_step_scale"]);
+}
+
+/// Sixty-four frames that may each have a gain, and show none, do not hide those of sets of a few.
+#[test]
+fn gains_of_few_frames_are_named_beside_many_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let recordings = "four-sweep,four-rail,wdft-sweep,wdft-rail,harmonics";
+    let gains = "frame_gain:frame_1=0.0003,frame_2=-0.0003";
+    let verdict = verdict(&campaign(folder.path(), "16x12", recordings, &[gains]));
+    assert_eq!(names(&verdict), ["frame_gain"], "{verdict:#}");
+}
+
 /// Light that falls evenly: a far drift, of which tangents promise more than a fit keeps, is not outvoted by the columns of time.
 #[test]
 fn a_drift_that_goes_on_evenly_is_a_drift() {
@@ -257,6 +289,8 @@ fn a_drift_that_began_before_the_recording_is_one_drift() {
         with(sample, 2.0 * (1.0 - (-time_s / 80.0).exp()))
     });
     assert_eq!(names(&verdict), ["ambient_drift"], "{verdict:#}");
+    // Frames 25 ms apart, in sets 275 ms apart, see 120 Hz at rest.
+    assert_eq!(verdict["effects"][0]["also_possible"], json!(["ambient_flicker"]), "{verdict:#}");
     let before = verdict["held_out"]["chi2_per_dof_after"].as_f64().unwrap();
     assert!((before - 1.0).abs() < 0.02, "{verdict:#}");
 }

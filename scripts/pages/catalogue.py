@@ -144,7 +144,7 @@ CASES = {
     ),
     "emitter-beside-lens": (
         [add("path", "phase_rad", lambda f: TURN * FREQUENCY_HZ / LIGHT_M_S * emitter_beside(f, 0.15))],
-        "position_m column row amplitude",
+        [{"illumination_baseline"}],
     ),
     "background-suppression": ([add("response", "dn", lambda f: 2.0 * (f.dn > 700.0))], "code amplitude"),
     "bands": ([add("response", "dn", lambda f: 0.5 * np.sin(TURN * (rows / 6.0 + 1.7 * f.time_s)))], "row time_s"),

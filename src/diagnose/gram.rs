@@ -5,6 +5,7 @@ use super::block::{Block, Rows};
 use super::columns::{Frame, OWN, Tangents};
 use super::data::Data;
 use super::encoder_noise::jitter;
+use super::in_order::joined;
 use super::noise::Noise;
 use super::set_errors::{self, Jitter, SetErrors, explained};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
@@ -151,36 +152,35 @@ impl Gram {
         let chunk = sets.len().div_ceil(CHUNKS).clamp(CHUNK.0, CHUNK.1);
         let indexed: Vec<(usize, (usize, usize))> =
             sets.into_iter().enumerate().filter(|&(n, _)| counts(n)).collect();
-        indexed
-            .par_chunks(chunk)
-            .map(|chunk| {
-                let mut sums = Self::empty(pixels, &columns, count, noise.jitter);
-                let mut visited = T::default();
-                for &(number, (take, set)) in chunk {
-                    let frames = data.takes[take].frames;
-                    let errors = set_errors::count(noise.jitter, frames);
-                    sums.errors[number] = SetErrors::empty(errors, pixels);
-                    for (block, columns) in sums.blocks.iter_mut().zip(&columns) {
-                        block.errors[number] = DMatrix::zeros(errors, columns + 1);
-                    }
-                    for index in set * frames..(set + 1) * frames {
-                        let frame = tangents.frame(take, index);
-                        let (roots, residual) = whiten(data, take, index, &frame.base, noise);
-                        let (roots, residual) = (&roots[..], &residual[..]);
-                        let velocity_m_s = data.takes[take].moments[index].velocity_m_s;
-                        let frame = &frame;
-                        let whitened =
-                            Whitened { take, set: number, index, frame, roots, residual, velocity_m_s };
-                        visited = visit(visited, &whitened);
-                        let measured = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
-                        sums.ln_variance += noise.ln_variance(measured, roots);
-                        sums.add(data, &whitened, &fill(take, index, frame));
-                    }
+        let chunks: Vec<&[(usize, (usize, usize))]> = indexed.chunks(chunk).collect();
+        let of_chunk = |chunk: &&[(usize, (usize, usize))]| {
+            let mut sums = Self::empty(pixels, &columns, count, noise.jitter);
+            let mut visited = T::default();
+            for &(number, (take, set)) in *chunk {
+                let frames = data.takes[take].frames;
+                let errors = set_errors::count(noise.jitter, frames);
+                sums.errors[number] = SetErrors::empty(errors, pixels);
+                for (block, columns) in sums.blocks.iter_mut().zip(&columns) {
+                    block.errors[number] = DMatrix::zeros(errors, columns + 1);
                 }
-                sums.blocks.iter_mut().for_each(Block::settle);
-                (sums, visited)
-            })
-            .reduce_with(|(a, x), (b, y)| (a.join(b), merge(x, y)))
+                for index in set * frames..(set + 1) * frames {
+                    let frame = tangents.frame(take, index);
+                    let (roots, residual) = whiten(data, take, index, &frame.base, noise);
+                    let (roots, residual) = (&roots[..], &residual[..]);
+                    let velocity_m_s = data.takes[take].moments[index].velocity_m_s;
+                    let frame = &frame;
+                    let whitened =
+                        Whitened { take, set: number, index, frame, roots, residual, velocity_m_s };
+                    visited = visit(visited, &whitened);
+                    let measured = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
+                    sums.ln_variance += noise.ln_variance(measured, roots);
+                    sums.add(data, &whitened, &fill(take, index, frame));
+                }
+            }
+            sums.blocks.iter_mut().for_each(Block::settle);
+            (sums, visited)
+        };
+        joined(&chunks, of_chunk, |(a, x), (b, y)| (a.join(b), merge(x, y)))
             .unwrap_or_else(|| (Self::empty(pixels, &columns, count, noise.jitter), T::default()))
     }
 

@@ -19,6 +19,7 @@ mod gram;
 mod grid;
 mod held_out;
 mod images;
+mod in_order;
 mod jitters;
 mod judge;
 mod library;

@@ -5,10 +5,10 @@ use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::fit::Fit;
 use super::gram::whiten;
+use super::in_order::joined;
 use super::random::CLUSTER_NATS;
 use super::set_errors::Jitter;
 use nalgebra::{Matrix3, Vector3};
-use rayon::prelude::*;
 
 /// Variance of the noise at a signal, DN², and what frames are off by at random.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,6 +129,8 @@ pub struct Beyond {
     pub square_sigma: f64,
 }
 
+/// Frames are summed in so many chunks.
+const CHUNKS: usize = 64;
 /// Bins of the signal, evenly over its root.
 const BINS: usize = 48;
 
@@ -153,10 +155,14 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
         bins
     };
     let none = || vec![[0.0; 3]; BINS];
-    let bins = frames(data).par_iter().fold(none, add).reduce(none, |mut bins, others| {
+    let frames = frames(data);
+    let chunks: Vec<_> = frames.chunks(frames.len().div_ceil(CHUNKS).max(1)).collect();
+    let of_chunk = |frames: &&[(usize, usize)]| frames.iter().fold(none(), add);
+    let join = |mut bins: Vec<[f64; 3]>, others: Vec<[f64; 3]>| {
         bins.iter_mut().flatten().zip(others.into_iter().flatten()).for_each(|(sum, other)| *sum += other);
         bins
-    });
+    };
+    let bins = joined(&chunks, of_chunk, join).unwrap_or_else(none);
     let points = bins.into_iter().filter(|bin| bin[0] > 0.0).map(|[count, signals, squares]| {
         let signal = signals / count;
         let (variance, ratio) = (stated.weight(signal).recip(), squares / count);

@@ -2,11 +2,14 @@
 
 use super::columns::OWN;
 use super::data::{Data, Take};
+use super::in_order::joined;
 use crate::bench::chain;
 use crate::physics::{Chain, Memory, Pixels};
 use nalgebra::{Matrix4, Vector4};
-use rayon::prelude::*;
 use std::sync::Arc;
+
+/// Sets are summed in so many chunks.
+const CHUNKS: usize = 16;
 
 /// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
 pub const BACKGROUND_M: f64 = 1.0;
@@ -62,21 +65,22 @@ pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixel
     };
     let sets: Vec<(usize, (usize, usize))> =
         data.sets().into_iter().enumerate().filter(|&(number, _)| counts(number)).collect();
-    let chunk = sets.len().div_ceil(rayon::current_num_threads()).max(1);
-    let normal = sets.par_chunks(chunk).map(|sets| {
+    let chunks: Vec<_> = sets.chunks(sets.len().div_ceil(CHUNKS).max(1)).collect();
+    let of_chunk = |sets: &&[(usize, (usize, usize))]| {
         let indices = |&(_, (take, set)): &(usize, (usize, usize))| {
             let take = &data.takes[take];
             (set * take.frames..(set + 1) * take.frames).map(move |index| (take, index))
         };
         sets.iter().flat_map(indices).fold(none(), |normal, (take, index)| add(normal, take, index))
-    });
-    let normal = normal.reduce(none, |mut normal, others| {
-        normal.iter_mut().zip(others).for_each(|(sum, other)| {
+    };
+    let join = |mut normal: Vec<(Matrix4<f64>, Vector4<f64>)>, others: Vec<_>| {
+        normal.iter_mut().zip(others).for_each(|(sum, other): (_, (Matrix4<f64>, Vector4<f64>))| {
             sum.0 += other.0;
             sum.1 += other.1;
         });
         normal
-    });
+    };
+    let normal = joined(&chunks, of_chunk, join).unwrap_or_else(none);
     let mut numbers = [(); OWN].map(|()| vec![0.0; count]);
     for (pixel, (matrix, vector)) in normal.iter().enumerate() {
         let solution = matrix.svd(true, true).solve(vector, 1e-9 * matrix.norm()).unwrap_or_default();
