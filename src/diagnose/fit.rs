@@ -279,8 +279,8 @@ fn reaches(columns: &[Column], pieces: &[Piece], full_scale_dn: f64) -> Vec<f64>
     columns.iter().map(|column| parameter(column).reach(full_scale_dn)).collect()
 }
 
-/// The step to the minimum, and the covariance there, for numbers that stay within their bounds: one that is at a bound and would
-/// go beyond stays where it is, and is known.
+/// The step to the minimum for numbers that stay within their bounds: one that is at a bound and would go beyond stays where it is. And the covariance
+/// there, of all: that a number is held says nothing of how well the others are known beside it.
 fn bounded_step(
     projected: &Projected,
     columns: &[Column],
@@ -289,8 +289,8 @@ fn bounded_step(
     damping: f64,
 ) -> (DVector<f64>, DMatrix<f64>) {
     let mut reach = reaches(columns, pieces, full_scale_dn);
+    let (mut theta, covariance) = step(projected, &reach, damping);
     loop {
-        let (theta, covariance) = step(projected, &reach, damping);
         let goes_beyond = |number: &usize| {
             let piece = &pieces[columns[*number].piece];
             let parameter = columns[*number].parameter;
@@ -300,6 +300,7 @@ fn bounded_step(
         };
         let Some(held) = (0..columns.len()).find(goes_beyond) else { return (theta, covariance) };
         reach[held] = 0.0;
+        theta = step(projected, &reach, damping).0;
     }
 }
 

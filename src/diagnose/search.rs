@@ -177,7 +177,9 @@ impl<'a> Search<'a> {
         });
         match next {
             Some((best, whole)) if best.blocks.len() + self.named.len() <= MOST_EFFECTS => {
-                if self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
+                // Far from the baseline tangents promise more than there is, and of several effects the simplest is believed.
+                let is_believed = !data.assumed.camera && !pass.is_far(&whole, self.current.samples);
+                if is_believed && self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
                     self.promise(&pass, &candidates, &whole);
                 }
                 self.is_over = !self.name(&pass, &candidates, best, &whole);
