@@ -188,6 +188,15 @@ pub fn jitter(data: &Data, location: &Location) -> Option<Jitter> {
     (phase_rad > 0.0 || time_s > 0.0).then_some([phase_rad, time_s])
 }
 
+/// Chi squared that a `jitter` of this evidence, nats, may leave beside its tangents: half of its phase's square, relative (a cosine's second order).
+pub fn beside_tangents(data: &Data, jitter: Jitter, ln_bayes: f64) -> f64 {
+    let moments = || data.takes.iter().flat_map(|take| &take.moments);
+    let speed_m_s = moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max);
+    let metre_rad = moments().next().map_or(0.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
+    let phase_rad = jitter[0].hypot(jitter[1] * speed_m_s * metre_rad);
+    0.5 * phase_rad * phase_rad * 2.0 * ln_bayes
+}
+
 /// Whether a random effect of this evidence, nats, is more than what looks so of the chi squared that the forms of named effects may leave.
 pub fn is_beyond_forms(ln_bayes: f64, of_forms: f64) -> bool {
     ln_bayes > 0.5 * AT_RANDOM * of_forms
