@@ -280,7 +280,7 @@ fn reaches(columns: &[Column], pieces: &[Piece], full_scale_dn: f64) -> Vec<f64>
 }
 
 /// The step to the minimum for numbers that stay within their bounds: one that is at a bound and would go beyond stays where it is. And the covariance
-/// there, of all: that a number is held says nothing of how well the others are known beside it.
+/// there, of all: that a number is held does not make the others better known beside it than they are (a bound does a little: this is the safe side).
 fn bounded_step(
     projected: &Projected,
     columns: &[Column],

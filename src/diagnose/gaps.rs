@@ -1,18 +1,16 @@
 //! How samples see a line: from one to the next it may have gone through any number of whole cycles.
 
 use super::periodogram::Sum;
-use std::collections::BTreeMap;
 
-/// Gaps that differ by less are the same, s.
-const SAME_GAP_S: f64 = 1e-7;
+/// Gaps that differ by no more from the next longer one are the same, s: time stamps are rounded.
+const SAME_GAP_S: f64 = 2e-3;
 
-/// From a sample to the next, s, and how often.
+/// From a sample to the next, s, on average of those that are the same, and how often.
 pub fn gaps(group: &[(f64, Sum)]) -> Vec<(f64, f64)> {
-    let mut counts = BTreeMap::<i64, f64>::new();
-    for pair in group.windows(2) {
-        *counts.entry(((pair[1].0 - pair[0].0) / SAME_GAP_S).round() as i64).or_default() += 1.0;
-    }
-    counts.into_iter().map(|(gap, count)| (gap as f64 * SAME_GAP_S, count)).collect()
+    let mut gaps: Vec<f64> = group.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
+    gaps.sort_by(f64::total_cmp);
+    let alike = gaps.chunk_by(|a, b| b - a <= SAME_GAP_S);
+    alike.map(|gaps| (gaps.iter().sum::<f64>() / gaps.len() as f64, gaps.len() as f64)).collect()
 }
 
 /// Cycles that samples with these `gaps` see of a line of this frequency, Hz, all added up.
@@ -39,5 +37,13 @@ mod tests {
         assert!((seen_cycles(&gaps, 100.0) - 4.5).abs() < 1e-4);
         assert!((seen_cycles(&gaps, 50.5) - (30.0 * 0.01 + 9.0 * 0.1525)).abs() < 1e-4);
         assert_eq!(seen_cycles(&gaps, 0.0), 0.0);
+    }
+
+    /// Thirty frames a second, by time stamps of whole milliseconds, see 120 Hz at rest.
+    #[test]
+    fn rounded_times_do_not_move_a_line() {
+        let at = |n: usize| (1000.0 * n as f64 / 30.0).round() / 1000.0;
+        let group: Vec<(f64, Sum)> = (0..301).map(|n| (at(n), (0.0, 1.0))).collect();
+        assert!(seen_cycles(&gaps(&group), 120.0) < 1e-6);
     }
 }

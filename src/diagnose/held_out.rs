@@ -1,8 +1,7 @@
 //! The fit on sets that it has not seen.
 //!
-//! Groups of four neighbouring sets are dealt to two folds; each fold is predicted by a model whose pixels and parameters are fitted to
-//! the other one. Of a few sets, every other frame of either half of the image is predicted: by parameters that are fitted to the
-//! other half, and pixels that are fitted to the frames between.
+//! Groups of four neighbouring sets are dealt to two folds; each fold is predicted by a model whose pixels and parameters are fitted to the other one. Of a few
+//! sets, every other frame of either half of the image is predicted: by parameters that are fitted to the other half, and pixels of the frames between.
 
 use super::columns::Tangents;
 use super::data::{Data, Take};

@@ -11,8 +11,8 @@ use super::noise::beyond;
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::{Piece, tolerance};
 use super::random::{
-    self, JITTERS, ORDERED_SHARE, RandomEffect, Strength, beside_tangents, coordinate, deflated, errors,
-    inflation, is_beyond_forms, is_noisier, jitter, of_name, random_effect, two_jitters, words,
+    self, JITTERS, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation,
+    is_beyond_forms, is_noisier, jitter, of_name, random_effect, two_jitters, words,
 };
 use super::search::{Found, Named, Search, tolerated};
 use super::source::{Shown, is_one, shown};
@@ -102,7 +102,7 @@ impl Judgement {
 /// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut noise = stated;
-    let (mut found, [mut baseline, mut end]) = searched(data, baseline, noise, 0.0);
+    let (mut found, [mut baseline, mut end]) = searched(data, baseline, noise);
     let (mut in_proportion, mut square_sigma) = (0.0, 0.0);
     for _ in 0..NOISE_STEPS {
         if !is_noisier(data, &end) {
@@ -112,7 +112,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         noise = more.noise;
         in_proportion += more.in_proportion;
         square_sigma = f64::max(square_sigma, more.square_sigma);
-        (found, [baseline, end]) = searched(data, unfitted(data, noise), noise, 0.0);
+        (found, [baseline, end]) = searched(data, unfitted(data, noise), noise);
     }
     if let Some((beside, ends, of)) = beside_jitter(data, noise, &end) {
         (found, [baseline, end], noise) = (beside, ends, of);
@@ -161,9 +161,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let excess = (seems.is_none() && in_proportion > 0.0).then_some(excess);
     let is_left = |place: &&Place| {
         random.is_none_or(|random| {
-            !place.is_random
-                && place.chi2.0 > beside_tangents(data, noise.jitter, random.ln_bayes)
-                && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
+            !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
         })
     };
     let rest = |place: &Place| place.chi2.0 - place.chi2.1 as f64;
@@ -287,16 +285,14 @@ fn asserted(data: &Data, found: &Found, named: &[Named], noise: Noise) -> Fit {
 }
 
 /// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not.
-///
-/// `left`: chi squared that the noise may leave.
-fn searched(data: &Data, baseline: Fit, noise: Noise, left: f64) -> (Found, [Location; 2]) {
+fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, [Location; 2]) {
     let before = locate(data, &baseline, noise);
     let inflation = random::noise(data, &before).map_or(1.0, |noise| noise.inflation);
     let end = |found: &Found| match found.named[..] {
         [] => before.clone(),
         _ => locate(data, &found.fit, noise),
     };
-    let (mut found, without_trust) = Search::new(data, baseline, noise, inflation, left).with_trust();
+    let (mut found, without_trust) = Search::new(data, baseline, noise, inflation).with_trust();
     let mut after = end(&found);
     // Far from the baseline no form was trusted.
     let is_far = found.baseline.is_far_from(&found.fit);
@@ -312,11 +308,11 @@ fn searched(data: &Data, baseline: Fit, noise: Noise, left: f64) -> (Found, [Loc
 /// The same beside errors of frames, where the `end` of a search shows such as a jitter makes, and a search that has them among the noise leaves nothing else:
 /// what frames share is no evidence for anything that does it in another way.
 fn beside_jitter(data: &Data, noise: Noise, end: &Location) -> Option<(Found, [Location; 2], Noise)> {
-    let noise = Noise { jitter: jitter(data, end)?, ..noise };
-    let ln_bayes = errors(data, end).first()?.ln_bayes;
-    let left = beside_tangents(data, noise.jitter, ln_bayes);
-    let (found, ends) = searched(data, unfitted(data, noise), noise, left);
-    random_effect(data, &ends[1]).is_some().then_some((found, ends, noise))
+    let beside = Noise { jitter: jitter(data, end)?, ..noise };
+    let (found, ends) = searched(data, unfitted(data, beside), beside);
+    // What orders the errors must not show, whether they are among the noise or not.
+    let is_random = |location: &Location| random_effect(data, location).is_some();
+    (is_random(&ends[1]) && is_random(&locate(data, &found.fit, noise))).then_some((found, ends, beside))
 }
 
 /// Coordinates that stand out, most significant first.

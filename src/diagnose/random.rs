@@ -2,9 +2,11 @@
 
 use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
+use super::jitters::Frame;
 use super::location::{Located, Location};
 use super::set_errors::Jitter;
 use super::steady::is_steady;
+use std::collections::BTreeSet;
 
 /// Evidence (nats) from which on noise that has more than was stated counts, and random errors that effects of the registry make.
 pub const CLUSTER_NATS: f64 = 7.0;
@@ -22,6 +24,9 @@ const ORDERED_MOST: f64 = 0.5;
 const FEW_FRAMES: f64 = 20.0;
 /// Of what the forms of named effects may leave, so much may look as if it were random.
 const AT_RANDOM: f64 = 0.05;
+/// Frames' errors may have so many times the noise's variance for each set. (Of an error's information the pixels' own numbers take a part of one over the
+/// number of sets.)
+const TIED: f64 = 0.1;
 /// Errors of rows, columns and frames that are less correlated than this, in standard deviations, are white: of eight lags one in two
 /// hundred is above it by chance.
 const WHITE: f64 = 3.5;
@@ -180,21 +185,19 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     Some(RandomEffect { name, strength: Strength { value: sigma, sigma: known_to }, ln_bayes, inflation })
 }
 
-/// What frames are off by, phase (rad) and time (s), where the strongest errors of a `location` are those of a jitter of the registry.
+/// What frames are off by, phase (rad) and time (s), where the strongest errors of a `location` are those of a jitter of the registry, and not so strong
+/// that the pixels' own numbers, which all sets share, tie the errors of different sets to each other.
 pub fn jitter(data: &Data, location: &Location) -> Option<Jitter> {
     effect_of(errors(data, location).first()?)?;
-    let moves = location.jitters.frames().iter().any(|frame| frame.time.1 > 0.0);
+    let frames = location.jitters.frames();
+    let moves = frames.iter().any(|frame| frame.time.1 > 0.0);
     let (phase_rad, time_s) = location.jitters.likeliest([true, moves]);
-    (phase_rad > 0.0 || time_s > 0.0).then_some([phase_rad, time_s])
-}
-
-/// Chi squared that a `jitter` of this evidence, nats, may leave beside its tangents: half of its phase's square, relative (a cosine's second order).
-pub fn beside_tangents(data: &Data, jitter: Jitter, ln_bayes: f64) -> f64 {
-    let moments = || data.takes.iter().flat_map(|take| &take.moments);
-    let speed_m_s = moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max);
-    let metre_rad = moments().next().map_or(0.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
-    let phase_rad = jitter[0].hypot(jitter[1] * speed_m_s * metre_rad);
-    0.5 * phase_rad * phase_rad * 2.0 * ln_bayes
+    let sets: BTreeSet<usize> = frames.iter().map(|frame| frame.set).collect();
+    // Over the noise, on average.
+    let variance = |frame: &Frame| frame.phase.1 * phase_rad.powi(2) + frame.time.1 * time_s.powi(2);
+    let variance = frames.iter().map(variance).sum::<f64>() / frames.len().max(1) as f64;
+    let is_there = phase_rad > 0.0 || time_s > 0.0;
+    (is_there && variance < TIED * sets.len() as f64).then_some([phase_rad, time_s])
 }
 
 /// Whether a random effect of this evidence, nats, is more than what looks so of the chi squared that the forms of named effects may leave.

@@ -13,8 +13,6 @@ use super::simpler::Simpler;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
-/// Chi squared up to which what the noise may leave is no reason to distrust a further effect.
-const LITTLE: f64 = 10.0;
 /// What a flicker is that all frames see at rest.
 const DRIFT: &str = "ambient_drift";
 /// Beside so many, what the forms of these may leave is no further one.
@@ -94,8 +92,6 @@ pub struct Search<'a> {
     noise: Noise,
     /// By how much white noise that samples share raises the variance of what columns say.
     inflation: f64,
-    /// Chi squared that the noise may leave.
-    left: f64,
     baseline: Fit,
     /// The fit with what is named.
     current: Fit,
@@ -109,14 +105,13 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Of `data`, to which `baseline` was fitted without any effect, beside noise that samples share, which raises the variance of what columns say
-    /// by `inflation`, and may leave a chi squared of `left`.
-    pub fn new(data: &'a Data, baseline: Fit, noise: Noise, inflation: f64, left: f64) -> Self {
+    /// by `inflation`.
+    pub fn new(data: &'a Data, baseline: Fit, noise: Noise, inflation: f64) -> Self {
         let current = baseline.clone();
         Self {
             data,
             noise,
             inflation,
-            left,
             baseline,
             current,
             named: Vec::new(),
@@ -166,9 +161,9 @@ impl<'a> Search<'a> {
         let before = |name: &str| Alone::of(alone, name).map_or(0.0, |alone| alone.chi2);
         let of_first = self.named.first().map_or(f64::INFINITY, |named| before(named.name));
         let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
-        let trusts = trust && !is_far && self.named.len() < MOST_TRUSTED && self.left < LITTLE;
+        let trusts = trust && !is_far && self.named.len() < MOST_TRUSTED;
         let is_trusted = |candidate: usize| trusts && !is_alike(candidate);
-        let tolerated = share * tolerated(&self.named) + self.left;
+        let tolerated = share * tolerated(&self.named);
         let next = pass.next(self.named.len(), tolerated, &is_trusted);
         let without = pass.next(self.named.len(), tolerated, &|_| false);
         let without = (without != next).then(|| Self {
@@ -177,7 +172,7 @@ impl<'a> Search<'a> {
             named: self.named.clone(),
             promised: self.promised.clone(),
             first: self.first.clone(),
-            is_over: without.is_none(),
+            is_over: without.is_none() && self.promised.is_none(),
             ..*self
         });
         match next {
@@ -187,7 +182,7 @@ impl<'a> Search<'a> {
                 if is_believed && self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
                     self.promise(&pass, &candidates, &whole);
                 }
-                self.is_over = !self.name(&pass, &candidates, best, &whole);
+                self.is_over = !self.name(&pass, &candidates, best, &whole) && !self.reconsiders();
             }
             _ => self.is_over = !self.reconsiders(),
         }
@@ -206,7 +201,11 @@ impl<'a> Search<'a> {
         let cost = |fit: &Fit| 0.5 * (fit.chi2 + fit.unreached) + fit.columns.len() as f64;
         let is_better = cost(&fitted) + RIVAL_NATS < cost(&self.current);
         if is_better {
-            (self.current, self.named) = (fitted, named);
+            // Neither explains more than both.
+            let gain = self.baseline.chi2 - fitted.chi2;
+            self.named = named;
+            self.named.iter_mut().for_each(|named| named.score.0 = named.score.0.min(gain));
+            self.current = fitted;
         }
         is_better
     }

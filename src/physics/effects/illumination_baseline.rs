@@ -5,7 +5,7 @@ use crate::units::phase_rad;
 
 /// The square of the distance from the lens to the emitter. From beside the lens by `b` the way out to a target at `d`, straight ahead, is
 /// √(d² + b²), longer than the way back by `b² / 2d`; what a pixel's direction adds, `b sin a`, does not depend on the distance and is the pixel's own.
-/// Emitters all around the lens make the same.
+/// Emitters all around the lens make the same, near the axis. That light falls with the emitter's distance is not in it: the phase alone.
 pub static EFFECT: Effect = Effect {
     name: "illumination_baseline",
     sentence: "The light starts beside the lens (bistatic geometry): the way out is longer than the way back, the more the nearer \
