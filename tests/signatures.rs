@@ -426,6 +426,15 @@ fn multipath(make: Make, findings: &mut Findings) {
     }
 }
 
+fn illumination_baseline(make: Make, findings: &mut Findings) {
+    for name in ["four_frame", "wdft"] {
+        let e = Experiment::of(name).cycles(make("illumination_baseline", &[("squared_baseline_m2", 0.01)]));
+        // 1 m away, out from 10 cm beside the lens: 2 pi 30 MHz (sqrt(1.01) - 1) m / c.
+        findings.about("3 mrad", e.mean(), 0.003_135_947, 1e-4);
+        findings.below("no dependence on phase", e.rest(&[]), 1e-9);
+    }
+}
+
 fn lateral_motion(make: Make, findings: &mut Findings) {
     let amplitudes = [A, A, A, A / 2.0, A / 2.0, A / 2.0];
     for (columns_a_second, edge) in [(2.0, 3), (-2.0, 2)] {
@@ -454,7 +463,7 @@ fn lateral_motion(make: Make, findings: &mut Findings) {
 }
 
 type Signature = fn(Make, &mut Findings);
-const SIGNATURES: [(&str, Signature); 15] = [
+const SIGNATURES: [(&str, Signature); 16] = [
     ("correlation_harmonics", harmonics),
     ("phase_step_scale", phase_step_scale),
     ("phase_step_errors", phase_step_errors),
@@ -470,6 +479,7 @@ const SIGNATURES: [(&str, Signature); 15] = [
     ("image_lag", image_lag),
     ("electrical_crosstalk", electrical_crosstalk),
     ("multipath_interference", multipath),
+    ("illumination_baseline", illumination_baseline),
 ];
 
 fn findings(signature: Signature, make: Make) -> Vec<String> {

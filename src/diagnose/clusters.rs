@@ -88,13 +88,6 @@ pub struct Cluster {
     pub correlation: Option<f64>,
 }
 
-impl Cluster {
-    /// Whether it is what a jitter of frames makes of them, or of their sets.
-    pub fn is_of_jitter(&self) -> bool {
-        matches!(self.level, Level::Set | Level::Frame) && self.mode >= PHASE
-    }
-}
-
 /// Of a level and mode: clusters, their information, its square, and the scores' squares beyond what noise makes.
 type Informed = [[[f64; 4]; MODES.len()]; LEVELS.len()];
 type Curves = [[[f64; STEPS]; MODES.len()]; LEVELS.len()];

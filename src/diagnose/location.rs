@@ -112,8 +112,8 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     let mut ranked = clusters.ranked();
     // Beside errors that the noise has, columns are no more than they seem.
     if noise.jitter != [0.0; 2] {
-        let of_jitter = ranked.iter_mut().filter(|cluster| cluster.is_of_jitter());
-        of_jitter.for_each(|cluster| cluster.inflation = 1.0);
+        // What rows, columns and neighbours share is its shadow there.
+        ranked.iter_mut().for_each(|cluster| cluster.inflation = 1.0);
     }
     Location {
         columns,
