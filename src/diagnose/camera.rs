@@ -4,8 +4,7 @@ use super::columns::Column;
 use super::data::Data;
 use super::fit::Fit;
 use super::judge::Judgement;
-use super::noise::Noise;
-use super::noise::ROUNDING_DN2;
+use super::noise::{Noise, ROUNDING_DN2};
 use crate::recording::{BASELINE, Camera};
 
 /// Closer to 1, in standard deviations, a share is 1.

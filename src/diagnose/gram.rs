@@ -58,7 +58,7 @@ pub struct Whitened<'a> {
 /// Sets are summed in so many chunks, of so many sets at least and at most.
 const CHUNKS: usize = 16;
 const CHUNK: (usize, usize) = (8, 64);
-/// So many sets' errors are freed of the pixels' own numbers at a time, or those of one set.
+/// So many errors of sets, or those of one set, are freed of the pixels' own numbers at a time.
 const TOGETHER: usize = 64;
 /// Residuals beyond so many standard deviations count as that many.
 const WINSOR: f64 = 4.0;
@@ -152,11 +152,10 @@ impl Gram {
         let chunk = sets.len().div_ceil(CHUNKS).clamp(CHUNK.0, CHUNK.1);
         let indexed: Vec<(usize, (usize, usize))> =
             sets.into_iter().enumerate().filter(|&(n, _)| counts(n)).collect();
-        let chunks: Vec<&[(usize, (usize, usize))]> = indexed.chunks(chunk).collect();
-        let of_chunk = |chunk: &&[(usize, (usize, usize))]| {
+        let of_chunk = |sets: &[(usize, (usize, usize))]| {
             let mut sums = Self::empty(pixels, &columns, count, noise.jitter);
             let mut visited = T::default();
-            for &(number, (take, set)) in *chunk {
+            for &(number, (take, set)) in sets {
                 let frames = data.takes[take].frames;
                 let errors = set_errors::count(noise.jitter, frames);
                 sums.errors[number] = SetErrors::empty(errors, pixels);
@@ -180,7 +179,7 @@ impl Gram {
             sums.blocks.iter_mut().for_each(Block::settle);
             (sums, visited)
         };
-        joined(&chunks, of_chunk, |(a, x), (b, y)| (a.join(b), merge(x, y)))
+        joined(&indexed, chunk, of_chunk, |(a, x), (b, y)| (a.join(b), merge(x, y)))
             .unwrap_or_else(|| (Self::empty(pixels, &columns, count, noise.jitter), T::default()))
     }
 
@@ -253,7 +252,7 @@ impl Gram {
         full.fill_upper_triangle_with_lower_triangle();
         let of_sets = block.errors.iter().zip(&self.errors).zip(left);
         let seen: Vec<_> = of_sets.filter_map(|(of, left)| Some((of, left.as_ref()?))).collect();
-        let errors = seen.first().map_or(1, |(_, left)| left.nrows());
+        let errors = seen.iter().map(|(_, left)| left.nrows()).max().unwrap_or(1);
         let mut sums: Vec<Stack> = Vec::new();
         for seen in seen.chunks((TOGETHER / errors).max(1)) {
             let own: Vec<f64> = seen.iter().flat_map(|((_, errors), _)| errors.own()).collect();

@@ -5,17 +5,18 @@ use rayon::prelude::*;
 /// So many parts are made for each thread before they are joined.
 const AHEAD: usize = 2;
 
-/// What `of` makes of each of the `parts`, joined from the first to the last; nothing where there are none.
+/// What `of` makes of every so many `items`, joined from the first to the last; nothing where there are none.
 ///
 /// No more parts are in memory than are made at a time.
 pub fn joined<T: Sync, R: Send>(
-    parts: &[T],
-    of: impl Fn(&T) -> R + Sync,
+    items: &[T],
+    many: usize,
+    of: impl Fn(&[T]) -> R + Sync,
     mut join: impl FnMut(R, R) -> R,
 ) -> Option<R> {
     let mut all = None;
-    for some in parts.chunks(AHEAD * rayon::current_num_threads()) {
-        for part in some.par_iter().map(&of).collect::<Vec<R>>() {
+    for some in items.chunks(many * AHEAD * rayon::current_num_threads()) {
+        for part in some.par_chunks(many).map(&of).collect::<Vec<R>>() {
             all = Some(match all {
                 Some(before) => join(before, part),
                 None => part,
@@ -35,9 +36,9 @@ mod tests {
         let in_a_row = parts.iter().fold(0.0, |sum, part| sum + part);
         for threads in [1, 2, 3, 7] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let sum = pool.install(|| joined(&parts, |part| *part, |a, b| a + b));
+            let sum = pool.install(|| joined(&parts, 1, |part| part[0], |a, b| a + b));
             assert_eq!(sum, Some(in_a_row), "{threads}");
         }
-        assert_eq!(joined(&[0.0; 0], |part| *part, |a, b| a + b), None);
+        assert_eq!(joined(&[0.0; 0], 1, |part| part[0], |a, b| a + b), None);
     }
 }

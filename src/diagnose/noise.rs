@@ -156,13 +156,13 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
     };
     let none = || vec![[0.0; 3]; BINS];
     let frames = frames(data);
-    let chunks: Vec<_> = frames.chunks(frames.len().div_ceil(CHUNKS).max(1)).collect();
-    let of_chunk = |frames: &&[(usize, usize)]| frames.iter().fold(none(), add);
+    let chunk = frames.len().div_ceil(CHUNKS).max(1);
+    let of_chunk = |frames: &[(usize, usize)]| frames.iter().fold(none(), add);
     let join = |mut bins: Vec<[f64; 3]>, others: Vec<[f64; 3]>| {
         bins.iter_mut().flatten().zip(others.into_iter().flatten()).for_each(|(sum, other)| *sum += other);
         bins
     };
-    let bins = joined(&chunks, of_chunk, join).unwrap_or_else(none);
+    let bins = joined(&frames, chunk, of_chunk, join).unwrap_or_else(none);
     let points = bins.into_iter().filter(|bin| bin[0] > 0.0).map(|[count, signals, squares]| {
         let signal = signals / count;
         let (variance, ratio) = (stated.weight(signal).recip(), squares / count);

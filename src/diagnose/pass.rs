@@ -162,6 +162,12 @@ impl Pass {
         candidates[self.blocks[block].candidate].effect.name
     }
 
+    /// The pieces of some blocks.
+    pub fn pieces(&self, blocks: &[usize], candidates: &[Candidate]) -> Vec<Piece> {
+        let of = blocks.iter().map(|&block| &self.blocks[block]);
+        of.flat_map(|of| candidates[of.candidate].variants[of.variant].pieces.iter().cloned()).collect()
+    }
+
     /// Whether what `best` explains of so many `samples` is more than their noise.
     pub fn is_far(&self, best: &Model, samples: usize) -> bool {
         self.promised(best) > samples as f64

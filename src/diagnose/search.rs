@@ -144,7 +144,16 @@ impl<'a> Search<'a> {
     fn found(mut self) -> Found {
         drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
-        let Self { baseline, current, named, .. } = self;
+        let Self { baseline, current, mut named, .. } = self;
+        // However a drift was named, and if a flicker is not named beside it.
+        let is_named = named.iter().any(|named| named.name == FLICKER);
+        if !is_named && Alone::of(&alone, FLICKER).is_some() && baseline.series.flicker_rests() {
+            for drift in named.iter_mut().filter(|named| named.name == DRIFT) {
+                if !drift.rivals.iter().any(|rival| rival == FLICKER) {
+                    drift.rivals.push(FLICKER.to_owned());
+                }
+            }
+        }
         Found { baseline, fit: current, named, invisible, detectable, alone, simpler }
     }
 
@@ -212,10 +221,6 @@ impl<'a> Search<'a> {
 
     /// Keeps the two effects of the model `whole` in mind, whose strongest one comes first, alone.
     fn promise(&mut self, pass: &Pass, candidates: &[Candidate], whole: &Model) {
-        let pieces = |&block: &usize| {
-            let of = &pass.blocks[block];
-            candidates[of.candidate].variants[of.variant].pieces.iter().cloned()
-        };
         let rivals = pass.rivals(whole, candidates);
         let named = |&block: &usize| Named {
             name: pass.name(block, candidates),
@@ -224,7 +229,7 @@ impl<'a> Search<'a> {
             rivals: rivals.clone(),
         };
         self.promised = Some(Promised {
-            pieces: whole.blocks.iter().flat_map(pieces).collect(),
+            pieces: pass.pieces(&whole.blocks, candidates),
             named: whole.blocks.iter().map(named).collect(),
         });
     }
@@ -234,9 +239,7 @@ impl<'a> Search<'a> {
         let Self { data, noise, ref current, .. } = *self;
         let mut rivals = pass.rivals(whole, candidates);
         let pieces = |blocks: &[usize]| -> Vec<Piece> {
-            let more = blocks.iter().map(|&block| &pass.blocks[block]);
-            let more = more.flat_map(|b| candidates[b.candidate].variants[b.variant].pieces.iter().cloned());
-            current.pieces.iter().cloned().chain(more).collect()
+            [&current.pieces[..], &pass.pieces(blocks, candidates)].concat()
         };
         let fitted = |pieces: Vec<Piece>| fit(data, Some(current), pieces, noise, &|_| true);
         let with = |blocks: &[usize]| fitted(pieces(blocks));
@@ -284,11 +287,6 @@ impl<'a> Search<'a> {
         rivals.extend(near);
         let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, candidates) == rival);
         rivals.retain(|rival| !own(rival));
-        let drifts = best.blocks.iter().any(|&block| pass.name(block, candidates) == DRIFT);
-        let may_flicker = candidates.iter().any(|candidate| candidate.effect.name == FLICKER);
-        if drifts && may_flicker && current.series.flicker_rests() {
-            rivals.push(FLICKER.to_owned());
-        }
         rivals.extend(pass.near(&best, candidates));
         let mut known = BTreeSet::new();
         rivals.retain(|rival| known.insert(rival.clone()));

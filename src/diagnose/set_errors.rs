@@ -16,15 +16,12 @@ pub fn tangents(
     own: &[Vec<f64>; OWN],
     position: Vec<f64>,
 ) -> Vec<Vec<f64>> {
-    let by_time = whitened.velocity_m_s;
-    let time: Vec<f64> =
-        if jitter[1] > 0.0 { position.iter().map(|by_m| by_time * by_m).collect() } else { Vec::new() };
     let mut errors = vec![position];
     if jitter[0] > 0.0 {
         errors.push(own[1].clone());
     }
     if jitter[1] > 0.0 {
-        errors.push(time);
+        errors.push(errors[0].iter().map(|by_m| whitened.velocity_m_s * by_m).collect());
     }
     errors
 }

@@ -65,8 +65,8 @@ pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixel
     };
     let sets: Vec<(usize, (usize, usize))> =
         data.sets().into_iter().enumerate().filter(|&(number, _)| counts(number)).collect();
-    let chunks: Vec<_> = sets.chunks(sets.len().div_ceil(CHUNKS).max(1)).collect();
-    let of_chunk = |sets: &&[(usize, (usize, usize))]| {
+    let chunk = sets.len().div_ceil(CHUNKS).max(1);
+    let of_chunk = |sets: &[(usize, (usize, usize))]| {
         let indices = |&(_, (take, set)): &(usize, (usize, usize))| {
             let take = &data.takes[take];
             (set * take.frames..(set + 1) * take.frames).map(move |index| (take, index))
@@ -80,7 +80,7 @@ pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixel
         });
         normal
     };
-    let normal = joined(&chunks, of_chunk, join).unwrap_or_else(none);
+    let normal = joined(&sets, chunk, of_chunk, join).unwrap_or_else(none);
     let mut numbers = [(); OWN].map(|()| vec![0.0; count]);
     for (pixel, (matrix, vector)) in normal.iter().enumerate() {
         let solution = matrix.svd(true, true).solve(vector, 1e-9 * matrix.norm()).unwrap_or_default();
