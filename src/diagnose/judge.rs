@@ -101,8 +101,7 @@ impl Judgement {
 
 /// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
-    let mut noise = stated;
-    let (mut found, [mut baseline, mut end]) = searched(data, baseline, noise);
+    let (mut found, [mut baseline, mut end], mut noise) = searched(data, baseline, stated);
     let (mut in_proportion, mut square_sigma) = (0.0, 0.0);
     for _ in 0..NOISE_STEPS {
         if !is_noisier(data, &end) {
@@ -112,10 +111,10 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         noise = more.noise;
         in_proportion += more.in_proportion;
         square_sigma = f64::max(square_sigma, more.square_sigma);
-        (found, [baseline, end]) = searched(data, unfitted(data, noise), noise);
+        (found, [baseline, end], noise) = searched(data, unfitted(data, noise), noise);
     }
-    if let Some((beside, ends, of)) = beside_jitter(data, noise, &end) {
-        (found, [baseline, end], noise) = (beside, ends, of);
+    if let Some(beside) = beside_jitter(data, noise, &end) {
+        (found, [baseline, end], noise) = beside;
     }
     let mut places = places(data, &baseline);
     // What random errors let appear among the columns is not asserted.
@@ -284,9 +283,18 @@ fn asserted(data: &Data, found: &Found, named: &[Named], noise: Noise) -> Fit {
     }
 }
 
-/// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not.
-fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, [Location; 2]) {
+/// What a search found, what is left before it and after it, and the noise beside which it was made.
+type Searched = (Found, [Location; 2], Noise);
+
+/// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not. Where all that is left of the simulation looks like a
+/// jitter, it is made beside that.
+fn searched(data: &Data, baseline: Fit, noise: Noise) -> Searched {
     let before = locate(data, &baseline, noise);
+    let is_random = random_effect(data, &before).is_some();
+    // Beside what frames share names would be found by the dozen, and fitted, that do not stand.
+    if let Some(beside) = is_random.then(|| beside_jitter(data, noise, &before)).flatten() {
+        return beside;
+    }
     let inflation = random::noise(data, &before).map_or(1.0, |noise| noise.inflation);
     let end = |found: &Found| match found.named[..] {
         [] => before.clone(),
@@ -302,17 +310,21 @@ fn searched(data: &Data, baseline: Fit, noise: Noise) -> (Found, [Location; 2]) 
         found = search.without_trust();
         after = end(&found);
     }
-    (found, [before, after])
+    (found, [before, after], noise)
 }
 
 /// The same beside errors of frames, where the `end` of a search shows such as a jitter makes, and a search that has them among the noise leaves nothing else:
 /// what frames share is no evidence for anything that does it in another way.
-fn beside_jitter(data: &Data, noise: Noise, end: &Location) -> Option<(Found, [Location; 2], Noise)> {
+fn beside_jitter(data: &Data, noise: Noise, end: &Location) -> Option<Searched> {
+    if noise.jitter != [0.0; 2] {
+        return None;
+    }
     let beside = Noise { jitter: jitter(data, end)?, ..noise };
-    let (found, ends) = searched(data, unfitted(data, beside), beside);
+    let searched = searched(data, unfitted(data, beside), beside);
+    let (found, [_, after], _) = &searched;
     // What orders the errors must not show, whether they are among the noise or not.
     let is_random = |location: &Location| random_effect(data, location).is_some();
-    (is_random(&ends[1]) && is_random(&locate(data, &found.fit, noise))).then_some((found, ends, beside))
+    (is_random(after) && is_random(&locate(data, &found.fit, noise))).then_some(searched)
 }
 
 /// Coordinates that stand out, most significant first.
