@@ -3,6 +3,7 @@
 use super::acting::Acting;
 use super::block::{Block, Rows};
 use super::columns::{Frame, OWN, Tangents};
+use super::common_phase::CommonPhase;
 use super::data::Data;
 use super::encoder_noise::jitter;
 use super::in_order::joined;
@@ -36,6 +37,8 @@ pub type Filled = Vec<Acting>;
 /// Pairs of a pixel's own numbers.
 const PAIRS: [(usize, usize); OWN * (OWN + 1) / 2] =
     [(0, 0), (0, 1), (0, 2), (0, 3), (1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)];
+/// That of the phase with itself.
+const PHASES: usize = 4;
 
 /// One frame, whitened.
 pub struct Whitened<'a> {
@@ -215,8 +218,10 @@ impl Gram {
             inverse(&own)
         };
         let inverses: Vec<Matrix4<f64>> = (0..self.own[0].len()).map(of).collect();
-        let left = self.errors.par_iter().map(|errors| errors.left(&inverses)).collect();
-        Solved { inverses, left }
+        let of_phases = || CommonPhase::of(&self.own[PHASES]);
+        let common = (self.jitter != [0.0; 2]).then(of_phases).flatten();
+        let left = self.errors.par_iter().map(|errors| errors.left(&inverses, common)).collect();
+        Solved { inverses, common, left }
     }
 
     /// Solves everything that the columns of the first block do not decide: [`Projected`]. `jitter_m2`: variance of the encoder's
@@ -234,7 +239,7 @@ impl Gram {
     fn project_block(
         &self,
         block: &Block,
-        Solved { inverses, left }: &Solved,
+        Solved { inverses, common, left }: &Solved,
         jitter_m2: Option<f64>,
     ) -> Projected {
         let (size, pixels) = (block.full.nrows(), inverses.len());
@@ -246,10 +251,14 @@ impl Gram {
                 (0..OWN).for_each(|number| column[number * pixels + pixel] = values[number]);
             }
         }
+        let with_common = common.map(|common| (common, common.freed(&block.mixed, &mut solved)));
         let own = block.mixed.transpose() * &solved;
-        let settled = own[(size - 1, size - 1)];
+        let mut settled = own[(size - 1, size - 1)];
         let mut full = &block.full - own;
         full.fill_upper_triangle_with_lower_triangle();
+        if let Some((common, with)) = &with_common {
+            full = common.append(full, with);
+        }
         let of_sets = block.errors.iter().zip(&self.errors).zip(left);
         let seen: Vec<_> = of_sets.filter_map(|(of, left)| Some((of, left.as_ref()?))).collect();
         let errors = seen.iter().map(|(_, left)| left.nrows()).max().unwrap_or(1);
@@ -259,11 +268,16 @@ impl Gram {
             let own = DMatrix::from_vec(solved.nrows(), own.len() / solved.nrows(), own);
             let mut of = own.transpose() * &solved;
             of.neg_mut();
+            of.resize_mut(of.nrows(), full.ncols(), 0.0);
             let mut first = 0;
             let mut lefts = Vec::new();
-            for &((sums, _), left) in seen {
+            for &((sums, errors), left) in seen {
                 let mut rows = of.rows_mut(first, left.nrows());
-                rows += sums;
+                let mut columns = rows.columns_mut(0, size);
+                columns += sums;
+                if common.is_some() {
+                    rows.column_mut(size).copy_from_slice(&errors.with_common_phase());
+                }
                 lefts.push((first, left));
                 first += left.nrows();
             }
@@ -283,6 +297,9 @@ impl Gram {
             }
             full -= sums.transpose() * &*sums;
         }
+        if let Some(common) = common {
+            settled += common.fitted(&mut full, &mut solved);
+        }
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();
         let raw = DVector::from_fn(residual, |column, _| block.full[(column, column)]);
@@ -298,6 +315,8 @@ type Stack<'a> = (DMatrix<f64>, Vec<(usize, &'a DMatrix<f64>)>);
 struct Solved {
     /// Of the normal equations of each pixel's own numbers.
     inverses: Vec<Matrix4<f64>>,
+    /// What is not among these where frames have errors.
+    common: Option<CommonPhase>,
     /// What these leave of each set's errors, against each other; nothing where that is nothing.
     left: Vec<Option<DMatrix<f64>>>,
 }

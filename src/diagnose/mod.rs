@@ -8,6 +8,7 @@ mod camera;
 mod clusters;
 mod codes;
 mod columns;
+mod common_phase;
 mod contest;
 mod coordinates;
 mod data;

@@ -3,6 +3,7 @@
 //! With errors of variances V beside white noise the inverse covariance is 1 - M (1 / V + M' M)^-1 M' (Woodbury 1950), M what a unit of each error does.
 
 use super::columns::OWN;
+use super::common_phase::CommonPhase;
 use super::gram::Whitened;
 use nalgebra::{DMatrix, DMatrixViewMut, DVector, Matrix4, Vector4};
 
@@ -86,8 +87,16 @@ impl SetErrors {
         self.own.iter().map(|&own| f64::from(own))
     }
 
-    /// The errors against each other where the pixels' own numbers, of which these are the `inverses`, give way; nothing where none is left of them.
-    pub fn left(&self, inverses: &[Matrix4<f64>]) -> Option<DMatrix<f64>> {
+    /// What each error shares with the phase of all pixels.
+    pub fn with_common_phase(&self) -> Vec<f64> {
+        let errors = self.square.nrows();
+        let sums = self.own.chunks_exact((self.own.len() / errors.max(1)).max(1));
+        sums.map(|own| CommonPhase::with(own.iter().copied().map(f64::from), own.len() / OWN)).collect()
+    }
+
+    /// The errors against each other where the pixels' own numbers, of which these are the `inverses`, give way, but for the phase that all have in `common`,
+    /// if that is kept; nothing where none is left of them.
+    pub fn left(&self, inverses: &[Matrix4<f64>], common: Option<CommonPhase>) -> Option<DMatrix<f64>> {
         let (errors, pixels) = (self.square.nrows(), inverses.len());
         if self.is_empty() {
             return None;
@@ -109,6 +118,9 @@ impl SetErrors {
                     left[(error, other)] -= absorbed;
                 }
             }
+        }
+        if let Some(common) = common {
+            common.keep(&mut left, &self.with_common_phase());
         }
         // What the pixels' own numbers absorb altogether may be less than nothing by rounding.
         for error in (0..errors).filter(|&error| left[(error, error)] <= 0.0).collect::<Vec<_>>() {
@@ -188,7 +200,7 @@ mod tests {
         }
         covariance += reading_m2 * &position * position.transpose();
         let exact = columns.transpose() * covariance.clone().try_inverse().unwrap() * &columns;
-        let left = set.left(&vec![Matrix4::identity(); SAMPLES]).unwrap();
+        let left = set.left(&vec![Matrix4::identity(); SAMPLES], None).unwrap();
         let freedom = explained(sums.as_view_mut(), &left, jitter, reading_m2);
         let found = columns.transpose() * &columns - sums.transpose() * &sums;
         assert!((found - &exact).amax() < 1e-9 * exact.amax());
