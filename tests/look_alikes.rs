@@ -122,6 +122,20 @@ fn a_lamp_is_one_source_although_the_mains_wander() {
     assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
 }
 
+/// A bit of the converter that comes late is one place of each of its periods: a wave over the codes says the most of it, and is not what it is.
+#[test]
+fn a_bit_that_comes_late_is_no_wave() {
+    let place = |sample: Sample| (sample.code / 256.0 + 0.3).fract();
+    let late = verdict_of("four-sweep,four-rail", |sample| {
+        with(sample, if place(sample) < 0.25 { 0.9 } else { 0.0 })
+    });
+    assert_eq!(names(&late), [""; 0], "{late:#}");
+    assert_eq!(late["verdict"], "unexplained");
+    assert_eq!(late["located"][0]["coordinate"], "code", "{late:#}");
+    let wave = verdict_of("four-sweep,four-rail", |sample| with(sample, 0.45 * (TAU * place(sample)).cos()));
+    assert_eq!(names(&wave), ["adc_nonlinearity"], "{wave:#}");
+}
+
 /// A gain that swings with a thermostat, by a fifth of the noise: no function of the time that few numbers say.
 #[test]
 fn a_swing_is_a_mismatch_in_time() {

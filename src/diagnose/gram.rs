@@ -8,7 +8,7 @@ use super::data::Data;
 use super::encoder_noise::jitter;
 use super::in_order::joined;
 use super::noise::Noise;
-use super::set_errors::{self, Jitter, SetErrors, explained};
+use super::set_errors::{self, Jitter, SetErrors, explained, of_reading};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
 
@@ -37,8 +37,8 @@ pub type Filled = Vec<Acting>;
 /// Pairs of a pixel's own numbers.
 const PAIRS: [(usize, usize); OWN * (OWN + 1) / 2] =
     [(0, 0), (0, 1), (0, 2), (0, 3), (1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)];
-/// That of the phase with itself.
-const PHASES: usize = 4;
+/// Those of each number with the phase.
+const PHASES: [usize; OWN] = [1, 4, 5, 6];
 
 /// One frame, whitened.
 pub struct Whitened<'a> {
@@ -217,10 +217,12 @@ impl Gram {
             }
             inverse(&own)
         };
-        let inverses: Vec<Matrix4<f64>> = (0..self.own[0].len()).map(of).collect();
-        let of_phases = || CommonPhase::of(&self.own[PHASES]);
-        let common = (self.jitter != [0.0; 2]).then(of_phases).flatten();
-        let left = self.errors.par_iter().map(|errors| errors.left(&inverses, common)).collect();
+        let pixels = self.own[0].len();
+        let inverses: Vec<Matrix4<f64>> = (0..pixels).map(of).collect();
+        let phases = |pixel: usize| Vector4::from(PHASES.map(|pair| self.own[pair][pixel]));
+        let common = || CommonPhase::of(&(0..pixels).map(phases).collect::<Vec<_>>(), &inverses);
+        let common = (self.jitter != [0.0; 2]).then(common).flatten();
+        let left = self.errors.par_iter().map(|errors| errors.left(&inverses, common.as_ref())).collect();
         Solved { inverses, common, left }
     }
 
@@ -251,7 +253,7 @@ impl Gram {
                 (0..OWN).for_each(|number| column[number * pixels + pixel] = values[number]);
             }
         }
-        let with_common = common.map(|common| (common, common.freed(&block.mixed, &mut solved)));
+        let with_common = common.as_ref().map(|common| (common, common.freed(&block.mixed, &mut solved)));
         let own = block.mixed.transpose() * &solved;
         let mut settled = own[(size - 1, size - 1)];
         let mut full = &block.full - own;
@@ -275,8 +277,8 @@ impl Gram {
                 let mut rows = of.rows_mut(first, left.nrows());
                 let mut columns = rows.columns_mut(0, size);
                 columns += sums;
-                if common.is_some() {
-                    rows.column_mut(size).copy_from_slice(&errors.with_common_phase());
+                if let Some(common) = common {
+                    rows.column_mut(size).copy_from(&errors.with_common_phase(common));
                 }
                 lefts.push((first, left));
                 first += left.nrows();
@@ -286,7 +288,18 @@ impl Gram {
         let residual = size - 1;
         let jitter_m2 = jitter_m2.unwrap_or_else(|| {
             let of = |(sums, lefts): &Stack| -> Vec<(f64, f64)> {
-                lefts.iter().map(|&(first, left)| (sums[(first, residual)], left[(0, 0)])).collect()
+                let of_set = |&(first, left): &(usize, &DMatrix<f64>)| {
+                    let column = |number: usize| sums.column(number).rows(first, left.nrows()).into_owned();
+                    let (mut left, mut scores) = (left.clone(), column(residual));
+                    if let Some((common, with)) = &with_common {
+                        // Where the phase of all pixels begins says nothing of the reading.
+                        let shared = column(size);
+                        scores.axpy(-common.per_unit(with[residual]), &shared, 1.0);
+                        common.take(&mut left, &shared);
+                    }
+                    of_reading(&scores, &left, self.jitter)
+                };
+                lefts.iter().map(of_set).collect()
             };
             jitter(&sums.iter().flat_map(of).filter(|(_, square)| *square > 0.0).collect::<Vec<_>>())
         });
@@ -298,7 +311,9 @@ impl Gram {
             full -= sums.transpose() * &*sums;
         }
         if let Some(common) = common {
-            settled += common.fitted(&mut full, &mut solved);
+            let taken = common.fitted(&mut full, &mut solved);
+            settled += taken.chi2;
+            freedom += taken.ln_variance;
         }
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();

@@ -8,6 +8,7 @@ use super::lines::{FLICKER, FLICKER_HZ};
 use super::location::{LOCATED_NATS, Located, Location, locate};
 use super::noise::Noise;
 use super::noise::beyond;
+use super::overtones::{OF_CODES, overtones};
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::{Piece, tolerance};
 use super::random::{
@@ -119,16 +120,17 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let mut places = places(data, &baseline);
     // What random errors let appear among the columns is not asserted.
     let inflation = inflation(data, &end);
-    // A line of several sources was found, but is not what has its name.
-    let several = several(&found, inflation);
+    // A line of several sources was found, or a wave that is none, but is not what has its name.
+    let unlike = several(&found, inflation).or_else(|| no_wave(data, &found, &baseline, noise));
     let is_clear = |line: &&Place| deflated(inflation, line.ln_bayes, line.chi2.0) > LOCATED_NATS;
-    let unnamed = several.as_ref().filter(is_clear);
+    let unnamed = unlike.as_ref().map(|(_, place)| place).filter(is_clear);
     let stands = |named: &Named| {
         // Of two that were found together the evidence is that of both.
         let together = found.named.iter().filter(|other| other.ln_bayes == named.ln_bayes);
         let chi2: f64 = together.map(|named| named.score.0).sum();
         let score = (chi2, named.score.1);
-        of_name(inflation, named.ln_bayes, score) > THRESHOLD && (named.name != FLICKER || several.is_none())
+        of_name(inflation, named.ln_bayes, score) > THRESHOLD
+            && unlike.as_ref().is_none_or(|(name, _)| named.name != *name)
     };
     let mut named: Vec<Named> = found.named.iter().filter(|named| stands(named)).cloned().collect();
     let dropped = named.len() < found.named.len();
@@ -255,8 +257,17 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     }
 }
 
+/// Where something repeats with the code that was taken for a wave, but has overtones.
+fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Option<(&'static str, Place)> {
+    let named = found.named.iter().find(|named| named.name == OF_CODES)?;
+    let period_dn = overtones(data, found, noise)?;
+    let shape = format!("a pattern that repeats every {period_dn:.1} DN and is no wave");
+    let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, baseline.take);
+    Some((OF_CODES, Place { coordinate: "code", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }))
+}
+
 /// Where a line is that was taken for a flicker, but has several sources.
-fn several(found: &Found, inflation: f64) -> Option<Place> {
+fn several(found: &Found, inflation: f64) -> Option<(&'static str, Place)> {
     let named = found.named.iter().find(|named| named.name == FLICKER)?;
     let shown = shown(&found.fit, inflation);
     if is_one(&shown) {
@@ -267,7 +278,7 @@ fn several(found: &Found, inflation: f64) -> Option<Place> {
     let shape = format!("offset, a line of {:.2} Hz that differs from recording to recording", clearest.hz);
     let looked = found.baseline.series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);
     let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, clearest.take);
-    Some(Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false })
+    Some((FLICKER, Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false }))
 }
 
 /// The fit of what is `named` alone: the search may have found more than stands.

@@ -29,6 +29,7 @@ mod location;
 mod marginal;
 mod next;
 mod noise;
+mod overtones;
 mod parts;
 mod pass;
 mod patterns;

@@ -87,16 +87,18 @@ impl SetErrors {
         self.own.iter().map(|&own| f64::from(own))
     }
 
-    /// What each error shares with the phase of all pixels.
-    pub fn with_common_phase(&self) -> Vec<f64> {
+    /// What each error shares with the phase that all pixels have in common.
+    pub fn with_common_phase(&self, common: &CommonPhase) -> DVector<f64> {
         let errors = self.square.nrows();
-        let sums = self.own.chunks_exact((self.own.len() / errors.max(1)).max(1));
-        sums.map(|own| CommonPhase::with(own.iter().copied().map(f64::from), own.len() / OWN)).collect()
+        let each = self.own.len() / errors.max(1);
+        DVector::from_fn(errors, |error, _| {
+            common.with(self.own[error * each..(error + 1) * each].iter().copied().map(f64::from))
+        })
     }
 
     /// The errors against each other where the pixels' own numbers, of which these are the `inverses`, give way, but for the phase that all have in `common`,
     /// if that is kept; nothing where none is left of them.
-    pub fn left(&self, inverses: &[Matrix4<f64>], common: Option<CommonPhase>) -> Option<DMatrix<f64>> {
+    pub fn left(&self, inverses: &[Matrix4<f64>], common: Option<&CommonPhase>) -> Option<DMatrix<f64>> {
         let (errors, pixels) = (self.square.nrows(), inverses.len());
         if self.is_empty() {
             return None;
@@ -120,7 +122,7 @@ impl SetErrors {
             }
         }
         if let Some(common) = common {
-            common.keep(&mut left, &self.with_common_phase());
+            common.keep(&mut left, &self.with_common_phase(common));
         }
         // What the pixels' own numbers absorb altogether may be less than nothing by rounding.
         for error in (0..errors).filter(|&error| left[(error, error)] <= 0.0).collect::<Vec<_>>() {
@@ -135,6 +137,25 @@ impl SetErrors {
 fn variances(jitter: Jitter, reading_m2: f64, errors: usize) -> DVector<f64> {
     let own: Vec<f64> = jitter.into_iter().filter(|sigma| *sigma > 0.0).map(|sigma| sigma * sigma).collect();
     DVector::from_fn(errors, |error, _| if error == 0 { reading_m2 } else { own[(error - 1) % own.len()] })
+}
+
+/// Score and information of the reading, of a set whose errors have these `scores` and are `left` against each other, where its frames' own errors are known
+/// to be there.
+pub fn of_reading(scores: &DVector<f64>, left: &DMatrix<f64>, jitter: Jitter) -> (f64, f64) {
+    let frames = left.nrows() - 1;
+    if frames == 0 {
+        return (scores[0], left[(0, 0)]);
+    }
+    let roots = variances(jitter, 0.0, frames + 1).map(f64::sqrt).remove_row(0);
+    let own = left.view((1, 1), (frames, frames));
+    let matrix = DMatrix::from_fn(frames, frames, |a, b| {
+        roots[a] * own[(a, b)] * roots[b] + if a == b { 1.0 } else { 0.0 }
+    });
+    let Some(cholesky) = matrix.cholesky() else { return (0.0, 0.0) };
+    let reading = left.view((1, 0), (frames, 1)).column(0).component_mul(&roots);
+    let share = cholesky.solve(&reading);
+    let of_frames = scores.rows(1, frames).component_mul(&roots);
+    (scores[0] - share.dot(&of_frames), left[(0, 0)] - share.dot(&reading))
 }
 
 /// Takes what a set's errors explain of columns away from these: `sums` (error by column) become those whose products with each other are
@@ -198,9 +219,13 @@ mod tests {
                 covariance += sigma * sigma * &all * all.transpose();
             }
         }
+        let left = set.left(&vec![Matrix4::identity(); SAMPLES], None).unwrap();
+        let by_reading = covariance.clone().try_inverse().unwrap() * &position;
+        let (score, information) = of_reading(&sums.column(0).into_owned(), &left, jitter);
+        assert!((score - by_reading.dot(&columns.column(0))).abs() < 1e-9 * information.sqrt());
+        assert!((information - by_reading.dot(&position)).abs() < 1e-9 * information);
         covariance += reading_m2 * &position * position.transpose();
         let exact = columns.transpose() * covariance.clone().try_inverse().unwrap() * &columns;
-        let left = set.left(&vec![Matrix4::identity(); SAMPLES], None).unwrap();
         let freedom = explained(sums.as_view_mut(), &left, jitter, reading_m2);
         let found = columns.transpose() * &columns - sums.transpose() * &sums;
         assert!((found - &exact).amax() < 1e-9 * exact.amax());

@@ -1,0 +1,41 @@
+//! What repeats with the code and is no wave: its overtones say so. A converter whose bit comes late, or a code that is missing, is one place of each period,
+//! of which a wave explains the most, and not what it is.
+
+use super::columns::Tangents;
+use super::data::Data;
+use super::evidence::{Block, Evidence, tail};
+use super::gram::Gram;
+use super::noise::Noise;
+use super::pieces::Piece;
+use super::search::Found;
+
+/// The effect that is a wave over the codes, and its parameters.
+pub const OF_CODES: &str = "adc_nonlinearity";
+const PARTS: [usize; 2] = [0, 1];
+const PERIOD: usize = 2;
+/// Parts of the period in which overtones are looked for: shorter ones are lost in the noise.
+const OVERTONES: [f64; 2] = [2.0, 3.0];
+/// Overtones that a wave would leave by chance in so small a share of campaigns are none of a wave.
+const BY_CHANCE: f64 = 1e-3;
+
+/// Whether the wave over the codes that was `found` has overtones: its period, DN.
+pub fn overtones(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
+    let wave = found.fit.pieces.iter().find(|piece| piece.effect.name == OF_CODES)?;
+    let period_dn = wave.values[PERIOD];
+    let overtone = |part: f64| {
+        let mut values = vec![0.0; wave.values.len()];
+        values[PERIOD] = period_dn / part;
+        Piece { values, free: PARTS.to_vec(), finite: false, ..wave.clone() }
+    };
+    let tried = OVERTONES.map(overtone);
+    let (tangents, _) = Tangents::new(data, &found.fit.pixels, &found.fit.pieces, &tried);
+    let mut projected = Gram::of(data, &tangents, noise, &|_| true).project(None);
+    let fitted = found.fit.columns.len();
+    projected.give_way(fitted);
+    let columns = (fitted..projected.vector.len()).collect();
+    let blocks = [Block { candidate: 0, variant: 0, variants: 1.0, columns }];
+    let reach = |_| f64::INFINITY;
+    let evidence = Evidence::new(&projected.matrix, &projected.vector, &projected.raw, &reach, &blocks, 1);
+    let (chi2, numbers) = evidence.score(0)?;
+    (tail(chi2, numbers) < BY_CHANCE).then_some(period_dn)
+}
