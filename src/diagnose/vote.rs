@@ -38,10 +38,11 @@ impl Names {
         let mut evidences: Vec<f64> = named.iter().map(|named| named.ln_bayes).collect();
         // Of two that were found together it is that of both.
         evidences.dedup();
-        // A fit may keep more than tangents promise.
-        let kept = 0.5 * explained - OCCAM_NATS * named.len() as f64;
         // Columns are tangents: what one name promises by its own counts as much as what its fit keeps.
         let alone = if let [single] = named { found.alone(single.name) } else { None };
+        // A fit may keep more than tangents promise. What the freedom of one name costs is known.
+        let cost = alone.map_or(0.0, |alone| 0.5 * alone.chi2 - alone.ln_bayes);
+        let kept = 0.5 * explained - cost.max(OCCAM_NATS * named.len() as f64);
         let (promised, promised_chi2) = alone.map_or((0.0, 0.0), |alone| (alone.ln_bayes, alone.chi2));
         let is_named = |piece: &&Piece| named.iter().any(|named| named.name == piece.effect.name);
         let shapes: usize = found.fit.pieces.iter().filter(is_named).map(Piece::shapes).sum();
