@@ -121,7 +121,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // What random errors let appear among the columns is not asserted.
     let inflation = inflation(data, &end);
     // A line of several sources was found, or a wave that is none, but is not what has its name.
-    let unlike = several(&found, inflation).or_else(|| no_wave(data, &found, &baseline, noise));
+    // Where nothing of the camera is described, overtones may be anything else that is left.
+    let waves = || if data.assumed.camera { None } else { no_wave(data, &found, &baseline, noise) };
+    let unlike = several(&found, inflation).or_else(waves);
     let is_clear = |line: &&Place| deflated(inflation, line.ln_bayes, line.chi2.0) > LOCATED_NATS;
     let unnamed = unlike.as_ref().map(|(_, place)| place).filter(is_clear);
     let stands = |named: &Named| {
