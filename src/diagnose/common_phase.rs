@@ -1,4 +1,4 @@
-//! The phase that all pixels have in common, where frames' errors are known to be larger than the noise.
+//! The phase that all pixels have in common, where frames are known to have errors of their own.
 //!
 //! The pixels' own numbers are projected out as if the noise were white, and errors that samples of a set share are freed of them set by set. That leaves out
 //! that frames which are off by much move the numbers of all pixels together, and so what all other sets leave, too: the most by the phase. This one direction
@@ -98,7 +98,7 @@ mod tests {
     /// The pixels' phase among their own numbers.
     const PHASE: usize = 1;
     const PIXELS: usize = 6;
-    /// One more is dead.
+    /// All but one, which is dead.
     const SEEN: usize = 5;
     const FRAMES: usize = 6;
     const COLUMNS: usize = 3;

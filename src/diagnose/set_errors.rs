@@ -5,7 +5,7 @@
 use super::columns::OWN;
 use super::common_phase::CommonPhase;
 use super::gram::Whitened;
-use nalgebra::{DMatrix, DMatrixViewMut, DVector, Matrix4, Vector4};
+use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut, DVector, Matrix4, Vector4};
 
 /// Standard deviations of what frames are off by at random: of the phase, rad, and of the time, s. An error of 0 is not there.
 pub type Jitter = [f64; 2];
@@ -139,6 +139,13 @@ fn variances(jitter: Jitter, reading_m2: f64, errors: usize) -> DVector<f64> {
     DVector::from_fn(errors, |error, _| if error == 0 { reading_m2 } else { own[(error - 1) % own.len()] })
 }
 
+/// The covariance of errors that are `left` against each other, over the noise's: of the standard deviations `roots`, each in its own units.
+fn beside_noise(left: DMatrixView<f64>, roots: &DVector<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(roots.len(), roots.len(), |a, b| {
+        roots[a] * left[(a, b)] * roots[b] + if a == b { 1.0 } else { 0.0 }
+    })
+}
+
 /// Score and information of the reading, of a set whose errors have these `scores` and are `left` against each other, where its frames' own errors are known
 /// to be there.
 pub fn of_reading(scores: &DVector<f64>, left: &DMatrix<f64>, jitter: Jitter) -> (f64, f64) {
@@ -148,10 +155,7 @@ pub fn of_reading(scores: &DVector<f64>, left: &DMatrix<f64>, jitter: Jitter) ->
     }
     let roots = variances(jitter, 0.0, frames + 1).map(f64::sqrt).remove_row(0);
     let own = left.view((1, 1), (frames, frames));
-    let matrix = DMatrix::from_fn(frames, frames, |a, b| {
-        roots[a] * own[(a, b)] * roots[b] + if a == b { 1.0 } else { 0.0 }
-    });
-    let Some(cholesky) = matrix.cholesky() else { return (0.0, 0.0) };
+    let Some(cholesky) = beside_noise(own, &roots).cholesky() else { return (0.0, 0.0) };
     let reading = left.view((1, 0), (frames, 1)).column(0).component_mul(&roots);
     let share = cholesky.solve(&reading);
     let of_frames = scores.rows(1, frames).component_mul(&roots);
@@ -168,10 +172,7 @@ pub fn explained(mut sums: DMatrixViewMut<f64>, left: &DMatrix<f64>, jitter: Jit
         let root = if left[(error, error)] > 0.0 { *root } else { 0.0 };
         sums.row_mut(error).scale_mut(root);
     }
-    let matrix = DMatrix::from_fn(errors, errors, |a, b| {
-        roots[a] * left[(a, b)] * roots[b] + if a == b { 1.0 } else { 0.0 }
-    });
-    let Some(cholesky) = matrix.cholesky() else {
+    let Some(cholesky) = beside_noise(left.as_view(), &roots).cholesky() else {
         sums.fill(0.0);
         return 0.0;
     };
