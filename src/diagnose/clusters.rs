@@ -79,6 +79,8 @@ pub struct Cluster {
     pub known_to: f64,
     /// By how much it raises the variance of what a cluster says.
     pub inflation: f64,
+    /// The same of columns that live where it is seen best: a time of moving frames is an error of the fastest ones above all.
+    pub inflation_there: f64,
     /// Evidence, nats.
     pub ln_bayes: f64,
     /// The recording that shows it most.
@@ -277,6 +279,7 @@ impl Clusters {
                 let spread = peak(best, &at);
                 let of_take = |take: &usize| evidence[*take][number][mode][best];
                 let take = (0..evidence.len()).max_by(|a, b| of_take(a).total_cmp(&of_take(b)));
+                let [count, information, squares, _] = self.information[number][mode];
                 // What is tamed must not say how strong it is.
                 let (sigma, known_to) = match level {
                     Level::Set | Level::Frame => self.moment(number, mode),
@@ -287,10 +290,9 @@ impl Clusters {
                     mode,
                     sigma,
                     known_to,
-                    inflation: {
-                        let [count, information, ..] = self.information[number][mode];
-                        1.0 + variance(mode, spread) * information / count.max(1.0)
-                    },
+                    inflation: 1.0 + variance(mode, spread) * information / count.max(1.0),
+                    inflation_there: 1.0
+                        + variance(mode, spread) * squares / information.max(f64::MIN_POSITIVE),
                     ln_bayes: at(best),
                     take: take.unwrap_or(0),
                     correlation: match OFFSETS.iter().position(|offset| *offset == level) {
@@ -364,5 +366,29 @@ mod tests {
                 "{together}, {one_by_one}"
             );
         }
+    }
+
+    #[test]
+    fn what_is_seen_in_a_few_frames_raises_columns_of_these() {
+        // A time of moving frames: a quarter of them, ten times as fast, have a hundred times the information. The errors are of twice a standard deviation.
+        let (variance, slow, fast): (f64, f64, f64) = (4e-6, 1e4, 1e6);
+        let mut clusters = Clusters { evidence: vec![Curves::default()], ..Clusters::default() };
+        for number in 0..400 {
+            let information: f64 = if number % 4 == 0 { fast } else { slow };
+            let error = [variance.sqrt(), -variance.sqrt()][number / 4 % 2];
+            let sum = (information * error, information);
+            inform(&mut clusters.information[1][POSITION], &[sum]);
+            clusters.few[1][POSITION].push((0, sum));
+        }
+        let found = clusters.ranked();
+        let Cluster { inflation, inflation_there, .. } = found[0];
+        assert_eq!((found[0].level, found[0].mode), (Level::Frame, POSITION));
+        // Of a column that goes with the velocity it raises the variance by the information's mean, weighted by itself.
+        let ratio = 4.0 * (fast * fast + 3.0 * slow * slow) / (fast + 3.0 * slow).powi(2);
+        assert!(inflation > 1.3 && inflation < 1.0 + variance * fast, "{inflation}");
+        assert!(
+            ((inflation_there - 1.0) / (inflation - 1.0) - ratio).abs() < 1e-9 * ratio,
+            "{inflation_there}"
+        );
     }
 }

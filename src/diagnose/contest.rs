@@ -15,6 +15,10 @@ const LEAST_SAMPLES: usize = 50_000;
 const CLEARLY_LESS: f64 = 100.0;
 /// What a further step would take away of what is left of a part is known without taking it, where it is less than this.
 const PART_ENOUGH: f64 = 0.1 * CLEARLY_LESS;
+/// A way of an effect that explains more of the part by this chi squared, by no more numbers, is the better one of the same form.
+const ANOTHER_WAY: f64 = 10.0;
+/// Ways that explain the same but for this, or for what a further step would change, come to the same end.
+const SAME_END: f64 = 0.5;
 /// What numbers explain by chance, in standard deviations, at most.
 const BY_CHANCE: f64 = 3.0;
 
@@ -45,7 +49,14 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         let numbers = fit.columns.len().saturating_sub(before.columns.len()) as f64;
         let all = left(&before) - left(fit);
         let no_chance = all - numbers - BY_CHANCE * (2.0 * numbers).sqrt();
-        Explained { all, no_chance, form: tolerance(entrant.name) }
+        Explained {
+            name: entrant.name,
+            numbers: fit.columns.len(),
+            all,
+            unreached: fit.unreached,
+            no_chance,
+            form: tolerance(entrant.name),
+        }
     };
     let stay = staying(&entrants.iter().zip(&fits).map(explained).collect::<Vec<_>>());
     entrants.into_iter().zip(stay).filter(|(_, stays)| *stays).map(|(entrant, _)| entrant).collect()
@@ -56,9 +67,13 @@ fn left(fit: &Fit) -> f64 {
     fit.chi2 + fit.unreached
 }
 
-/// What an entrant explains of a part of the sets, chi squared.
+/// What an entrant explains of a part of the sets, chi squared, and by how many numbers.
 struct Explained {
+    name: &'static str,
+    numbers: usize,
     all: f64,
+    /// By how much a further step would change that.
+    unreached: f64,
     /// Of that, what is no chance.
     no_chance: f64,
     /// The share that its form may leave.
@@ -74,7 +89,19 @@ fn staying(explained: &[Explained]) -> Vec<bool> {
         let form = DISBELIEF * explained.form.max(form_of_best);
         explained.all > (1.0 - form) * most - CLEARLY_LESS
     };
-    explained.iter().enumerate().map(|(number, explained)| number == 0 || is_hopeful(explained)).collect()
+    // Another way of the same effect has the same form, and may have come to the same end.
+    let is_another = |number: usize, this: &Explained, other: usize, way: &Explained| {
+        let more = way.all - this.all;
+        let is_there = more.abs() <= this.unreached.max(way.unreached).max(SAME_END);
+        let is_ahead =
+            if is_there { more > 0.0 || more == 0.0 && other < number } else { more > ANOTHER_WAY };
+        other != number && way.name == this.name && way.numbers <= this.numbers && is_ahead
+    };
+    let stays = |(number, this): (usize, &Explained)| {
+        let mut ways = explained.iter().enumerate();
+        number == 0 || is_hopeful(this) && !ways.any(|(other, way)| is_another(number, this, other, way))
+    };
+    explained.iter().enumerate().map(stays).collect()
 }
 
 #[cfg(test)]
@@ -83,7 +110,11 @@ mod tests {
 
     #[test]
     fn what_a_part_speaks_against_clearly_goes_but_for_the_first() {
-        let of = |all: f64, no_chance: f64, form: f64| Explained { all, no_chance, form };
+        let of = |all: f64, no_chance: f64, form: f64| {
+            // Another effect each.
+            let name = String::leak(format!("{all} {form}"));
+            Explained { name, numbers: 5, all, unreached: 0.0, no_chance, form }
+        };
         let exact = |all: f64| of(all, all - 5.0, 0.01);
         assert_eq!(staying(&[]), [false; 0]);
         // The best one has its 5 by chance; of 2000 a form of one per cent may leave three times that, and a part says chi squared to 100.
@@ -97,5 +128,34 @@ mod tests {
         assert_eq!(staying(&[exact(2005.0), exact(1700.0)]), [true, false]);
         // A fit that is no number is not the best one, nor hopeful.
         assert_eq!(staying(&[exact(1.0), of(f64::NAN, f64::NAN, 0.01), exact(1e3)]), [true, false, true]);
+    }
+
+    #[test]
+    fn of_an_effect_the_best_way_stays() {
+        let way = |name, numbers, all: f64, unreached| Explained {
+            name,
+            numbers,
+            all,
+            unreached,
+            no_chance: all,
+            form: 0.08,
+        };
+        // Another effect, the best way, one that comes to where that is, one that explains less by fewer numbers.
+        let mut ways = vec![
+            way("b", 3, 1900.0, 0.0),
+            way("a", 3, 2005.4, 0.0),
+            way("a", 3, 2005.2, 0.0),
+            way("a", 2, 1990.0, 0.0),
+        ];
+        assert_eq!(staying(&ways), [true, true, false, true]);
+        // The first one stays in any case; what explains a little less may explain more of all.
+        ways.swap(0, 3);
+        ways[2].all = 1996.0;
+        assert_eq!(staying(&ways), [true, true, true, true]);
+        ways[2].all = 1995.0;
+        assert_eq!(staying(&ways), [true, true, false, true]);
+        // Ways that have not come to their end.
+        ways[2] = way("a", 3, 1999.0, 7.0);
+        assert_eq!(staying(&ways), [true, true, false, true]);
     }
 }

@@ -113,7 +113,7 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     // Beside errors that the noise has, columns are no more than they seem.
     if noise.jitter != [0.0; 2] {
         // What rows, columns and neighbours share is its shadow there.
-        ranked.iter_mut().for_each(|cluster| cluster.inflation = 1.0);
+        ranked.iter_mut().for_each(|cluster| (cluster.inflation, cluster.inflation_there) = (1.0, 1.0));
     }
     Location {
         columns,

@@ -14,6 +14,7 @@ mod coordinates;
 mod data;
 mod encoder_noise;
 mod evidence;
+mod exchange;
 mod fit;
 mod gaps;
 mod gram;

@@ -21,7 +21,7 @@ const TRUSTED_SHARE: f64 = 0.03;
 /// Where the tangents need not hold, effects whose score is at least this share of the best one's are fitted before one is chosen.
 const LEADING_SHARE: f64 = 0.8;
 /// The same for effects of fewer numbers: what a strong one does its tangent at the baseline need not show.
-const SIMPLER_SHARE: f64 = 0.5;
+pub const SIMPLER_SHARE: f64 = 0.5;
 /// So many at most.
 const MOST_LEADERS: usize = 5;
 /// The same where the mismatch is greater than the noise: there tangents say little of what a fit will.

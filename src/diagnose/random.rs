@@ -169,12 +169,12 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
 /// A random effect of the registry, if the strongest errors are what it makes, and nothing orders them, and they have no mean.
 pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     let first = *errors(data, location).first()?;
-    let Cluster { sigma, known_to, ln_bayes, inflation, .. } = *first;
+    let Cluster { sigma, known_to, ln_bayes, inflation, inflation_there, .. } = *first;
     // As many as let the variance be known to its scatter.
     let frames = 0.5 * (sigma / known_to).powi(2);
     let orders = |located: &Located| is_most(located.ln_bayes, located.chi2.1, ln_bayes, frames);
     let least = ORDERED_LEFT.0 * ln_bayes + ORDERED_LEFT.1;
-    if ordered(location, inflation) > least || location.columns.iter().any(orders) {
+    if ordered(location, inflation_there) > least || location.columns.iter().any(orders) {
         return None;
     }
     let name = effect_of(first)?;

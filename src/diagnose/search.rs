@@ -4,10 +4,11 @@ use super::alone::Alone;
 use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
+use super::exchange::exchange;
 use super::fit::{Fit, fit};
 use super::lines::FLICKER;
 use super::noise::Noise;
-use super::pass::{Detectable, Pass, RIVAL_NATS, THRESHOLD};
+use super::pass::{DISBELIEF, Detectable, Pass, RIVAL_NATS, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::simpler::Simpler;
 use std::collections::BTreeSet;
@@ -78,6 +79,13 @@ pub fn tolerated(named: &[Named]) -> f64 {
     named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
 }
 
+/// Of what effects explain together, the share that may be left of it before they are not believed: each one's form may leave a part of what that effect
+/// explains, and no loose form excuses what is left of another's.
+pub fn believed(named: &[Named]) -> f64 {
+    let all: f64 = named.iter().map(|named| named.score.0).sum();
+    if all > 0.0 { DISBELIEF * tolerated(named) / all } else { 0.0 }
+}
+
 /// Two effects of which the strongest was taken first.
 #[derive(Debug, Clone)]
 struct Promised {
@@ -142,6 +150,10 @@ impl<'a> Search<'a> {
     }
 
     fn found(mut self) -> Found {
+        if let Some((first, _)) = self.first.as_ref().filter(|_| !self.baseline.is_far_from(&self.current)) {
+            let candidates = candidates(self.data, &self.baseline.series);
+            exchange(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named);
+        }
         drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
         let Self { baseline, current, mut named, .. } = self;
@@ -348,5 +360,20 @@ fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<N
         let Some((number, _, left)) = least.filter(|least| least.1 < NEEDED_NATS) else { return };
         *current = left;
         named.remove(number);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_weak_loose_form_excuses_little() {
+        let named = |name, chi2| Named { name, ln_bayes: 0.0, score: (chi2, 1), rivals: Vec::new() };
+        let (exact, loose) = (named("encoder_cyclic", 194.0), named("intensity_related_phase", 30.0));
+        let is = |share: f64, of: &[Named]| (believed(of) - share).abs() < 1e-12;
+        assert!(is(0.03, &[exact.clone()]) && is(0.24, &[loose.clone()]));
+        assert!(is(3.0 * (1.94 + 2.4) / 224.0, &[exact, loose]));
+        assert_eq!(believed(&[]), 0.0);
     }
 }

@@ -29,7 +29,13 @@ pub struct Names {
     flickers: bool,
     /// Whether the first one is what other pixels do.
     is_of_other_pixels: bool,
+    /// Columns that are those of the only name: a coordinate, and the way of being off.
+    own: Option<(&'static str, &'static str)>,
 }
+
+/// Effects of which each number is what some columns are: these say nothing else. Coordinate, and way of being off.
+const COLUMNS: [(&str, (&str, &str)); 2] =
+    [("phase_step_errors", ("frame", "phase")), ("frame_gain", ("frame", "gain"))];
 
 impl Names {
     /// Of the effects `named`, of those that were `found`, which explain so much of chi squared; nothing where none is named.
@@ -54,6 +60,9 @@ impl Names {
             at_most: (explained.max(promised_chi2) + tolerated(named), numbers + shapes),
             flickers: named.iter().any(|named| named.name == FLICKER),
             is_of_other_pixels: OF_OTHER_PIXELS.contains(&first.name),
+            own: alone.and_then(|alone| {
+                COLUMNS.iter().find(|(name, _)| *name == alone.name).map(|(_, columns)| *columns)
+            }),
         })
     }
 
@@ -68,6 +77,11 @@ impl Names {
     }
 
     fn are_outvoted_by(&self, coordinate: &Located) -> bool {
+        let is_own =
+            |(of, way): (&str, &str)| coordinate.coordinate == of && coordinate.shape.starts_with(way);
+        if self.own.is_some_and(is_own) {
+            return false;
+        }
         // What is said of neighbours is what those effects do, roughly.
         if coordinate.coordinate == "neighbours" && self.is_of_other_pixels {
             return false;
@@ -107,6 +121,7 @@ mod tests {
         at_most: (57.0, 6),
         flickers: false,
         is_of_other_pixels: false,
+        own: None,
     };
 
     fn outvotes(names: Names, coordinate: &'static str, ln_bayes: f64, chi2: (f64, usize)) -> bool {
@@ -141,6 +156,19 @@ mod tests {
         // What is far from noise is no question of it.
         let strong = Names { ln_bayes: 4000.0, chi2: (8e3, 6), at_most: (8e3, 6), ..NAMES };
         assert!(!outvotes(strong, "phase", 3000.0, (8e3 + 7.0, 2)));
+    }
+
+    #[test]
+    fn an_effect_is_not_outvoted_by_its_own_columns() {
+        let named = |shape: &str, own| {
+            let coordinate = Located { shape: shape.to_owned(), ..located("frame", 30.0, (60.0, 1), 1.0) };
+            Names { own, ..NAMES }.are_outvoted_by(&coordinate)
+        };
+        let of_phase = Some(("frame", "phase"));
+        assert!(named("phase, frame 3 of 4", None));
+        assert!(!named("phase, frame 3 of 4", of_phase));
+        assert!(named("gain, frame 3 of 4", of_phase));
+        assert!(outvotes(Names { own: of_phase, ..NAMES }, "time_s", 30.0, (60.0, 1)));
     }
 
     #[test]

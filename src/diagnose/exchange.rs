@@ -1,0 +1,178 @@
+//! Whether of several effects one is what a simpler one does: alone, beside what was not fitted yet, it may have needed more numbers than it needs now.
+
+use super::contest::{Entrant, hopeful};
+use super::data::Data;
+use super::fit::{Fit, fit};
+use super::noise::Noise;
+use super::pass::{DISBELIEF, Pass, RIVAL_NATS, SIMPLER_SHARE};
+use super::pieces::{Candidate, Piece, tolerance};
+use super::search::{Named, tolerated};
+
+/// In `current` and `named`, the first effect of several in whose place a simpler one of the `candidates` of the `first` pass leaves no more than forms may,
+/// is replaced by that; whether there was one.
+pub fn exchange(
+    data: &Data,
+    noise: Noise,
+    (first, candidates): (&Pass, &[Candidate]),
+    current: &mut Fit,
+    named: &mut [Named],
+) -> bool {
+    if named.len() < 2 {
+        return false;
+    }
+    for number in 0..named.len() {
+        let old = named[number].name;
+        let others: Vec<Piece> =
+            current.pieces.iter().filter(|piece| piece.effect.name != old).cloned().collect();
+        let entrant = |block: usize| Entrant {
+            block,
+            name: first.name(block, candidates),
+            pieces: [&others[..], &first.pieces(&[block], candidates)].concat(),
+        };
+        let simpler = simpler(first, candidates, named, number);
+        let own = Entrant { block: usize::MAX, name: old, pieces: current.pieces.clone() };
+        let entrants: Vec<Entrant> = std::iter::once(own).chain(simpler.into_iter().map(entrant)).collect();
+        let fits = hopeful(data, current, entrants, noise).into_iter().skip(1).map(|entrant| {
+            let fitted = fit(data, Some(current), entrant.pieces, noise, &|_| true);
+            (cost(&fitted), entrant.block, fitted)
+        });
+        let best = fits.min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((new, block, fitted)) = best else { continue };
+        let name = first.name(block, candidates);
+        // What the others' forms leave its more numbers may say, or its own form leaves.
+        let of_others = tolerated(named) - tolerance(old) * named[number].score.0;
+        let of_own = DISBELIEF * tolerance(name) * named[number].score.0;
+        if new < cost(current) + 0.5 * of_others.min(of_own) {
+            let named = &mut named[number];
+            named.name = name;
+            named.score.1 = first.scores[block].map_or(1, |(_, numbers)| numbers);
+            named.rivals.retain(|rival| rival != name);
+            if new + RIVAL_NATS > cost(current) {
+                named.rivals.push(old.to_owned());
+            }
+            *current = fitted;
+            return true;
+        }
+    }
+    false
+}
+
+/// What is left, and the numbers that a fit has, nats.
+fn cost(fit: &Fit) -> f64 {
+    0.5 * (fit.chi2 + fit.unreached) + fit.columns.len() as f64
+}
+
+/// The best block each of the candidates that do half of what the effect of this `number` does alone, by fewer numbers, and are not named.
+fn simpler(first: &Pass, candidates: &[Candidate], named: &[Named], number: usize) -> Vec<usize> {
+    let score = |block: usize| first.scores[block].unwrap_or((0.0, usize::MAX));
+    let blocks = 0..first.blocks.len();
+    let is_own = |&block: &usize| first.name(block, candidates) == named[number].name;
+    let own = blocks.clone().filter(is_own).map(|block| score(block).0).fold(0.0, f64::max);
+    let numbers = named[number].score.1;
+    let is_simpler = |&block: &usize| {
+        let (chi2, degrees) = score(block);
+        let name = first.name(block, candidates);
+        degrees < numbers && chi2 > SIMPLER_SHARE * own && named.iter().all(|named| named.name != name)
+    };
+    let mut simpler: Vec<usize> = blocks.filter(is_simpler).collect();
+    simpler.sort_by(|&a, &b| score(b).0.total_cmp(&score(a).0));
+    let mut known = Vec::new();
+    simpler.retain(|&block| {
+        let candidate = first.blocks[block].candidate;
+        let is_new = !known.contains(&candidate);
+        known.push(candidate);
+        is_new
+    });
+    simpler
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
+    use crate::diagnose::fit::unfitted;
+    use crate::diagnose::pieces::candidates;
+    use crate::diagnose::stated_noise;
+    use crate::frames::Geometry;
+    use crate::physics::{FREQUENCY_HZ, Stage};
+    use std::path::Path;
+    use std::sync::Arc;
+
+    const SEED: u64 = 5;
+    const ERRORS: &str = "phase_step_errors";
+    const SCALE: &str = "phase_step_scale";
+    const ECHO: &str = "multipath_interference";
+
+    /// A rail of four and of five frames, in which a wall adds to the light, beside effects of the steps.
+    fn campaign(steps: &[&str]) -> Data {
+        let camera = practice_camera(Geometry { width: 16, height: 12 });
+        let sensor = sensor(&camera);
+        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: SEED };
+        let bench = Arc::new(Stage::bench().pixels(&sensor, SEED));
+        let effects =
+            [steps, &["multipath_interference:relative_amplitude=0.05,wall_distance_m=1.2"]].concat();
+        let take = |name: &&str| {
+            let effects = effects.iter().map(|text| injection(text).unwrap()).collect();
+            let chain = &chain(&camera, Arc::clone(&bench), effects);
+            let simulation =
+                Simulation { chain, sensor: &sensor, noise: true, seed: SEED, recording: number_of(name) };
+            let course = plan.course(name).unwrap();
+            recorded(Path::new(""), name, &plan, &course, &camera, &simulation, &|| ()).unwrap()
+        };
+        Data::of(&["four-rail", "wdft-rail"].iter().map(take).collect::<Vec<_>>(), Vec::new()).unwrap()
+    }
+
+    /// What [`exchange`] makes of errors of steps beside the wall, fitted to a [`campaign`]: the names, what comes near the first one, and chi squared
+    /// before and after.
+    fn exchanged(steps: &[&str]) -> (Vec<&'static str>, Vec<String>, [f64; 2]) {
+        let data = campaign(steps);
+        let noise = stated_noise(&data);
+        let baseline = unfitted(&data, noise);
+        let candidates = candidates(&data, &baseline.series);
+        let first = Pass::of(&data, &baseline, &candidates, noise, 1.0);
+        let best = |name: &str| {
+            let of = (0..first.blocks.len()).filter(|&block| first.name(block, &candidates) == name);
+            let score = |block: usize| first.scores[block].map_or(0.0, |(chi2, _)| chi2);
+            of.max_by(|&a, &b| score(a).total_cmp(&score(b))).unwrap()
+        };
+        let blocks = [ERRORS, ECHO].map(best);
+        let mut current = fit(&data, Some(&baseline), first.pieces(&blocks, &candidates), noise, &|_| true);
+        let named = |&block: &usize| Named {
+            name: first.name(block, &candidates),
+            ln_bayes: 100.0,
+            score: first.scores[block].unwrap(),
+            rivals: Vec::new(),
+        };
+        let mut named: Vec<Named> = blocks.iter().map(named).collect();
+        let before = current.chi2;
+        let was = exchange(&data, noise, (&first, &candidates), &mut current, &mut named);
+        assert_eq!(was, named[0].name != ERRORS);
+        (named.iter().map(|named| named.name).collect(), named[0].rivals.clone(), [before, current.chi2])
+    }
+
+    #[test]
+    fn errors_that_are_a_scale_are_named_a_scale() {
+        let (names, rivals, [before, after]) = exchanged(&["phase_step_scale:relative=0.004"]);
+        assert_eq!(names, [SCALE, ECHO]);
+        // Nine numbers say by chance what one does not.
+        assert!(after - before < 30.0, "{before}, {after}");
+        assert!(rivals.is_empty() || rivals == [ERRORS], "{rivals:?}");
+    }
+
+    #[test]
+    fn a_scale_may_leave_what_forms_may() {
+        let trace = "phase_step_errors:setting_1_rad=0.004";
+        let (names, rivals, [before, after]) = exchanged(&["phase_step_scale:relative=0.004", trace]);
+        assert_eq!(names, [SCALE, ECHO]);
+        assert!(after - before > 30.0, "by chance: {before}, {after}");
+        assert_eq!(rivals, [ERRORS]);
+    }
+
+    #[test]
+    fn errors_that_are_none_stay() {
+        let errors = "phase_step_errors:setting_1_rad=0.006,setting_2_rad=0.001,setting_3_rad=0.01";
+        let (names, rivals, [before, after]) = exchanged(&[errors]);
+        assert_eq!(names, [ERRORS, ECHO]);
+        assert!(rivals.is_empty() && before == after, "{rivals:?}");
+    }
+}
