@@ -1,12 +1,14 @@
 //! Whether of several effects one is what a simpler one does: alone, beside what was not fitted yet, it may have needed more numbers than it needs now.
 
-use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::fit::{Fit, fit};
 use super::noise::Noise;
 use super::pass::{DISBELIEF, Pass, RIVAL_NATS, SIMPLER_SHARE};
-use super::pieces::{Candidate, Piece, tolerance};
-use super::search::{Named, tolerated};
+use super::pieces::{Candidate, tolerance};
+use super::search::{Named, UNDESCRIBED, tolerated};
+
+/// So many are tried in the place of one.
+const MOST: usize = 3;
 
 /// In `current` and `named`, the first effect of several in whose place a simpler one of the `candidates` of the `first` pass leaves no more than forms may,
 /// is replaced by that; whether there was one.
@@ -20,34 +22,31 @@ pub fn exchange(
     if named.len() < 2 {
         return false;
     }
+    let undescribed = if data.assumed.camera { UNDESCRIBED } else { 1.0 };
     for number in 0..named.len() {
-        let old = named[number].name;
-        let others: Vec<Piece> =
-            current.pieces.iter().filter(|piece| piece.effect.name != old).cloned().collect();
-        let entrant = |block: usize| Entrant {
-            block,
-            name: first.name(block, candidates),
-            pieces: [&others[..], &first.pieces(&[block], candidates)].concat(),
+        let Named { name: old, score: (explained, _), .. } = named[number];
+        let others = current.pieces.iter().filter(|piece| piece.effect.name != old);
+        let fitted = |block: usize| {
+            let pieces = others.clone().cloned().chain(first.pieces(&[block], candidates)).collect();
+            (block, fit(data, Some(current), pieces, noise, &|_| true))
         };
-        let simpler = simpler(first, candidates, named, number);
-        let own = Entrant { block: usize::MAX, name: old, pieces: current.pieces.clone() };
-        let entrants: Vec<Entrant> = std::iter::once(own).chain(simpler.into_iter().map(entrant)).collect();
-        let fits = hopeful(data, current, entrants, noise).into_iter().skip(1).map(|entrant| {
-            let fitted = fit(data, Some(current), entrant.pieces, noise, &|_| true);
-            (cost(&fitted), entrant.block, fitted)
-        });
-        let best = fits.min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((new, block, fitted)) = best else { continue };
-        let name = first.name(block, candidates);
-        // What the others' forms leave its more numbers may say, or its own form leaves.
-        let of_others = tolerated(named) - tolerance(old) * named[number].score.0;
-        let of_own = DISBELIEF * tolerance(name) * named[number].score.0;
-        if new < cost(current) + 0.5 * of_others.min(of_own) {
+        let is_simpler = |(_, fitted): &(usize, Fit)| {
+            fitted.cost().is_finite() && fitted.columns.len() < current.columns.len()
+        };
+        let fits = simpler(first, candidates, named, number).into_iter().map(fitted).filter(is_simpler);
+        let Some((block, fitted)) = fits.min_by(|a, b| a.1.cost().total_cmp(&b.1.cost())) else { continue };
+        let (name, worse) = (first.name(block, candidates), fitted.cost() - current.cost());
+        // What the others' forms leave more numbers may say, or the form of either leaves.
+        let of_others = tolerated(named) - tolerance(old) * explained;
+        let of_own = DISBELIEF * tolerance(name).min(tolerance(old)) * explained;
+        if worse < 0.5 * undescribed * of_others.min(of_own) {
+            let less = fitted.chi2 - current.chi2;
             let named = &mut named[number];
             named.name = name;
-            named.score.1 = first.scores[block].map_or(1, |(_, numbers)| numbers);
+            named.ln_bayes -= 0.5 * less;
+            named.score = (explained - less, first.scores[block].map_or(1, |(_, numbers)| numbers));
             named.rivals.retain(|rival| rival != name);
-            if new + RIVAL_NATS > cost(current) {
+            if worse > -RIVAL_NATS {
                 named.rivals.push(old.to_owned());
             }
             *current = fitted;
@@ -55,11 +54,6 @@ pub fn exchange(
         }
     }
     false
-}
-
-/// What is left, and the numbers that a fit has, nats.
-fn cost(fit: &Fit) -> f64 {
-    0.5 * (fit.chi2 + fit.unreached) + fit.columns.len() as f64
 }
 
 /// The best block each of the candidates that do half of what the effect of this `number` does alone, by fewer numbers, and are not named.
@@ -83,6 +77,7 @@ fn simpler(first: &Pass, candidates: &[Candidate], named: &[Named], number: usiz
         known.push(candidate);
         is_new
     });
+    simpler.truncate(MOST);
     simpler
 }
 

@@ -72,6 +72,11 @@ impl Fit {
         self.covariance[(column, column)].max(0.0).sqrt()
     }
 
+    /// What it leaves, but for what a further step would take away, and the numbers that it has, nats.
+    pub fn cost(&self) -> f64 {
+        0.5 * (self.chi2 + self.unreached) + self.columns.len() as f64
+    }
+
     /// Whether what it leaves is far above the noise.
     pub fn is_far(&self) -> bool {
         self.chi2 > FAR * self.samples as f64

@@ -15,7 +15,7 @@ use super::random::{
     self, JITTERS, ORDERED_SHARE, RandomEffect, Strength, coordinate, deflated, errors, inflation,
     is_beyond_forms, is_noisier, jitter, of_name, random_effect, two_jitters, words,
 };
-use super::search::{Found, Named, Search, believed, tolerated};
+use super::search::{Found, Named, Search, form_share, tolerated};
 use super::source::{Shown, is_one, shown};
 use super::vote::Names;
 use crate::physics::effects;
@@ -178,7 +178,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let simpler = !is_far
         && !are_raised
         && Names::of(&found, &named, explained).is_some_and(|names| names.are_outvoted(&baseline));
-    let believed = believed(&named);
+    let believed = form_share(&named);
     let strongest = random.or(excess);
     let two = strongest.and_then(|strongest| two_jitters(&end, strongest));
     let at_random = two.map_or_else(|| strongest.into_iter().collect(), |two| two.to_vec());

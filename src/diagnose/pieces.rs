@@ -91,8 +91,8 @@ const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0
 /// curves are the response's for one of a converter.
 const SMOOTH: (&str, f64) = ("adc_nonlinearity", 10.0);
 
-/// Before anything is seen: effects that are so many times less likely than others. An encoder's zero is measured when it is set, to fractions of a millimetre
-/// (0.3 mm by the home sensor of Drayton, Carnegie and Dorrington 2012); what amplitudes take for millimetres of it is more likely light that comes another way.
+/// Before anything is seen: effects that are so many times less likely than others, where the camera is described. A bench is measured, once, and where its zero
+/// is off by millimetres that is a mistake; light that comes another way, which amplitudes may take for that, every bench has.
 const UNLIKELY: [(&str, f64); 1] = [("encoder_offset", 10.0)];
 
 /// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
@@ -237,7 +237,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         let strengths =
             if is_shared { strengths.get(..chosen as usize).unwrap_or(&strengths) } else { &strengths[..] };
         for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
-            let unlikely = UNLIKELY.iter().find(|(name, _)| *name == effect.name);
+            let unlikely = UNLIKELY.iter().find(|(name, _)| *name == effect.name && !data.assumed.camera);
             let rarity = if value > seen_dn { SMOOTH.1 } else { unlikely.map_or(1.0, |(_, rarity)| *rarity) };
             let of =
                 |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data), rarity };

@@ -137,9 +137,13 @@ pub const JITTERS: [&str; 2] = ["clock_jitter", "timing_jitter_of_frames"];
 /// Of the evidence for a random effect, a second one beside it must have so much, and so many nats besides.
 const SECOND: (f64, f64) = (0.005, 5.0);
 
-/// Evidence of columns beside random errors which raise their variance by `inflation`, nats.
-fn ordered(location: &Location, inflation: f64) -> f64 {
-    let left = |located: &Located| deflated(inflation, located.ln_bayes, located.chi2.0);
+/// Coordinate of columns that live where errors of a moving frame's time do: in the fastest frames.
+const OF_THE_FASTEST: &str = "velocity_m_s";
+
+/// Evidence of columns beside random errors which raise their variance by `inflation`, or, where these are seen best, by so much `there`, nats.
+fn ordered(location: &Location, inflation: f64, there: f64) -> f64 {
+    let inflation = |located: &Located| if located.coordinate == OF_THE_FASTEST { there } else { inflation };
+    let left = |located: &Located| deflated(inflation(located), located.ln_bayes, located.chi2.0);
     location.columns.iter().map(left).fold(0.0, f64::max)
 }
 
@@ -159,7 +163,7 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
         ln_bayes,
         ..first
     };
-    let least = SECOND.0 * first.ln_bayes + SECOND.1 + ordered(location, first.inflation);
+    let least = SECOND.0 * first.ln_bayes + SECOND.1 + ordered(location, first.inflation, first.inflation);
     let other = 1 - number;
     let is_clear = both.beside.iter().all(|nats| *nats > least)
         && !is_steady(&location.jitters, other, both.strengths[other].value);
@@ -174,7 +178,7 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     let frames = 0.5 * (sigma / known_to).powi(2);
     let orders = |located: &Located| is_most(located.ln_bayes, located.chi2.1, ln_bayes, frames);
     let least = ORDERED_LEFT.0 * ln_bayes + ORDERED_LEFT.1;
-    if ordered(location, inflation_there) > least || location.columns.iter().any(orders) {
+    if ordered(location, inflation, inflation_there) > least || location.columns.iter().any(orders) {
         return None;
     }
     let name = effect_of(first)?;

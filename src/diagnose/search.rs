@@ -21,7 +21,7 @@ const MOST_TRUSTED: usize = 2;
 /// Nor one that alone, at the baseline, would have explained this share of what the first one did.
 const ALIKE_SHARE: f64 = 0.5;
 /// Without a camera's description much is left out at once: so much of what their forms may leave keeps further effects out.
-const UNDESCRIBED: f64 = 0.1;
+pub const UNDESCRIBED: f64 = 0.1;
 /// A fit keeps at least so much of what the tangents promise.
 const KEPT_SHARE: f64 = 0.5;
 /// How often a fit is begun anew where the first one was.
@@ -81,7 +81,7 @@ pub fn tolerated(named: &[Named]) -> f64 {
 
 /// Of what effects explain together, the share that may be left of it before they are not believed: each one's form may leave a part of what that effect
 /// explains, and no loose form excuses what is left of another's.
-pub fn believed(named: &[Named]) -> f64 {
+pub fn form_share(named: &[Named]) -> f64 {
     let all: f64 = named.iter().map(|named| named.score.0).sum();
     if all > 0.0 { DISBELIEF * tolerated(named) / all } else { 0.0 }
 }
@@ -219,8 +219,7 @@ impl<'a> Search<'a> {
             return false;
         }
         let fitted = fit(self.data, Some(&self.baseline), pieces, self.noise, &|_| true);
-        let cost = |fit: &Fit| 0.5 * (fit.chi2 + fit.unreached) + fit.columns.len() as f64;
-        let is_better = cost(&fitted) + RIVAL_NATS < cost(&self.current);
+        let is_better = fitted.cost() + RIVAL_NATS < self.current.cost();
         if is_better {
             // Neither explains more than both.
             let gain = self.baseline.chi2 - fitted.chi2;
@@ -370,10 +369,10 @@ mod tests {
     #[test]
     fn a_weak_loose_form_excuses_little() {
         let named = |name, chi2| Named { name, ln_bayes: 0.0, score: (chi2, 1), rivals: Vec::new() };
-        let (exact, loose) = (named("encoder_cyclic", 194.0), named("intensity_related_phase", 30.0));
-        let is = |share: f64, of: &[Named]| (believed(of) - share).abs() < 1e-12;
-        assert!(is(0.03, &[exact.clone()]) && is(0.24, &[loose.clone()]));
-        assert!(is(3.0 * (1.94 + 2.4) / 224.0, &[exact, loose]));
-        assert_eq!(believed(&[]), 0.0);
+        let both = [named("encoder_cyclic", 194.0), named("intensity_related_phase", 30.0)];
+        let is = |share: f64, of: &[Named]| (form_share(of) - share).abs() < 1e-12;
+        assert!(is(0.03, &both[..1]) && is(0.24, &both[1..]));
+        assert!(is(3.0 * (1.94 + 2.4) / 224.0, &both));
+        assert_eq!(form_share(&[]), 0.0);
     }
 }

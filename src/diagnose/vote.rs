@@ -79,7 +79,8 @@ impl Names {
     fn are_outvoted_by(&self, coordinate: &Located) -> bool {
         let is_own =
             |(of, way): (&str, &str)| coordinate.coordinate == of && coordinate.shape.starts_with(way);
-        if self.own.is_some_and(is_own) {
+        // As long as the name says as much as they do: other ways of being off may be among them.
+        if self.own.is_some_and(is_own) && coordinate.chi2.0 <= self.at_most.0 {
             return false;
         }
         // What is said of neighbours is what those effects do, roughly.
@@ -161,13 +162,17 @@ mod tests {
     #[test]
     fn an_effect_is_not_outvoted_by_its_own_columns() {
         let named = |shape: &str, own| {
-            let coordinate = Located { shape: shape.to_owned(), ..located("frame", 30.0, (60.0, 1), 1.0) };
+            let coordinate = Located { shape: shape.to_owned(), ..located("frame", 30.0, (57.0, 1), 1.0) };
             Names { own, ..NAMES }.are_outvoted_by(&coordinate)
         };
         let of_phase = Some(("frame", "phase"));
         assert!(named("phase, frame 3 of 4", None));
         assert!(!named("phase, frame 3 of 4", of_phase));
         assert!(named("gain, frame 3 of 4", of_phase));
+        // They explain more than it does: not by its phases alone.
+        let all =
+            Located { shape: "phase, frame 3 of 4".to_owned(), ..located("frame", 40.0, (90.0, 5), 1.0) };
+        assert!(Names { own: of_phase, ..NAMES }.are_outvoted_by(&all));
         assert!(outvotes(Names { own: of_phase, ..NAMES }, "time_s", 30.0, (60.0, 1)));
     }
 
