@@ -370,7 +370,7 @@ mod tests {
 
     #[test]
     fn what_is_seen_in_a_few_frames_raises_columns_of_these() {
-        // A time of moving frames: a quarter of them, ten times as fast, have a hundred times the information. The errors are of twice a standard deviation.
+        // A time of moving frames: a quarter of them, ten times as fast, have a hundred times the information. All are off by one standard deviation.
         let (variance, slow, fast): (f64, f64, f64) = (4e-6, 1e4, 1e6);
         let mut clusters = Clusters { evidence: vec![Curves::default()], ..Clusters::default() };
         for number in 0..400 {

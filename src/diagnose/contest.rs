@@ -17,7 +17,7 @@ const CLEARLY_LESS: f64 = 100.0;
 const PART_ENOUGH: f64 = 0.1 * CLEARLY_LESS;
 /// A way of an effect that explains more of the part by this chi squared, by no more numbers, is the better one of the same form.
 const ANOTHER_WAY: f64 = 10.0;
-/// Ways of which a further step would end at the same but for this come to the same end.
+/// Ways that are at the same place but for this, with the pixels' own numbers settled, count as one that comes to the same end.
 const SAME_END: f64 = 0.5;
 /// What numbers explain by chance, in standard deviations, at most.
 const BY_CHANCE: f64 = 3.0;
@@ -47,7 +47,7 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
     let fits: Vec<Fit> = entrants.iter().map(|entrant| of_part(&entrant.pieces)).collect();
     let explained = |(entrant, fit): (&Entrant, &Fit)| {
         let numbers = fit.columns.len().saturating_sub(before.columns.len()) as f64;
-        let all = left(&before) - left(fit);
+        let all = before.left() - fit.left();
         let no_chance = all - numbers - BY_CHANCE * (2.0 * numbers).sqrt();
         Explained {
             name: entrant.name,
@@ -62,11 +62,6 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
     entrants.into_iter().zip(stay).filter(|(_, stays)| *stays).map(|(entrant, _)| entrant).collect()
 }
 
-/// What a fit leaves, but for what a further step would take away.
-fn left(fit: &Fit) -> f64 {
-    fit.chi2 + fit.unreached
-}
-
 /// What an entrant explains of a part of the sets, chi squared, and by how many numbers.
 struct Explained {
     name: &'static str,
@@ -74,7 +69,7 @@ struct Explained {
     all: f64,
     /// Of that, what is no chance.
     no_chance: f64,
-    /// By how much a further step would change that.
+    /// What a further step promises, and counts against it there.
     unreached: f64,
     /// The share that its form may leave.
     form: f64,
@@ -93,7 +88,7 @@ fn staying(explained: &[Explained]) -> Vec<bool> {
     let is_another = |number: usize, this: &Explained, other: usize, way: &Explained| {
         let more = way.all - this.all;
         let ends = (way.all + way.unreached) - (this.all + this.unreached);
-        // Where a step ends is known to a tenth of what it promises.
+        // Ways that are still under way need not be as near.
         let known_to = (0.1 * this.unreached.max(way.unreached)).clamp(SAME_END, ANOTHER_WAY);
         let is_same = ends.abs() <= known_to && other < number;
         let is_ahead = is_same || more - this.unreached > ANOTHER_WAY;

@@ -10,7 +10,7 @@ use super::search::{Named, UNDESCRIBED, tolerated};
 /// So many are tried in the place of one.
 const MOST: usize = 3;
 
-/// In `current` and `named`, the first effect of several in whose place a simpler one of the `candidates` of the `first` pass leaves no more than forms may,
+/// In `current` and `named`, of several, the first effect in whose place a simpler one of the `candidates` of the `first` pass leaves no more than forms may,
 /// is replaced by that; whether there was one.
 pub fn exchange(
     data: &Data,
@@ -19,9 +19,6 @@ pub fn exchange(
     current: &mut Fit,
     named: &mut [Named],
 ) -> bool {
-    if named.len() < 2 {
-        return false;
-    }
     let undescribed = if data.assumed.camera { UNDESCRIBED } else { 1.0 };
     for number in 0..named.len() {
         let Named { name: old, score: (explained, _), .. } = named[number];

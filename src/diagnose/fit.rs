@@ -72,9 +72,14 @@ impl Fit {
         self.covariance[(column, column)].max(0.0).sqrt()
     }
 
-    /// What it leaves, but for what a further step would take away, and the numbers that it has, nats.
+    /// Chi squared that it leaves; what a further step promises to take away counts against it.
+    pub fn left(&self) -> f64 {
+        self.chi2 + self.unreached
+    }
+
+    /// What it leaves, and the numbers that it has, nats.
     pub fn cost(&self) -> f64 {
-        0.5 * (self.chi2 + self.unreached) + self.columns.len() as f64
+        0.5 * self.left() + self.columns.len() as f64
     }
 
     /// Whether what it leaves is far above the noise.

@@ -221,6 +221,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let has_both = of_many > 0 && of_many < data.schemes().len();
     let groupings: Vec<Grouping> =
         groupings.iter().copied().filter(|by| *by != Grouping::FewFrames || has_both).collect();
+    let unlikely = UNLIKELY.iter().find(|(name, _)| *name == effect.name && !data.assumed.camera);
+    let usual = unlikely.map_or(1.0, |(_, rarity)| *rarity);
     let seen_dn = if effect.name == SMOOTH.0 { data.span_dn() } else { f64::INFINITY };
     let full_scale_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
@@ -237,8 +239,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         let strengths =
             if is_shared { strengths.get(..chosen as usize).unwrap_or(&strengths) } else { &strengths[..] };
         for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
-            let unlikely = UNLIKELY.iter().find(|(name, _)| *name == effect.name && !data.assumed.camera);
-            let rarity = if value > seen_dn { SMOOTH.1 } else { unlikely.map_or(1.0, |(_, rarity)| *rarity) };
+            let rarity = if value > seen_dn { SMOOTH.1 } else { usual };
             let of =
                 |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data), rarity };
             variants.extend(groupings.iter().map(of));

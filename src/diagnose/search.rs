@@ -150,7 +150,8 @@ impl<'a> Search<'a> {
     }
 
     fn found(mut self) -> Found {
-        if let Some((first, _)) = self.first.as_ref().filter(|_| !self.baseline.is_far_from(&self.current)) {
+        let exchanges = self.named.len() > 1 && !self.baseline.is_far_from(&self.current);
+        if let Some((first, _)) = self.first.as_ref().filter(|_| exchanges) {
             let candidates = candidates(self.data, &self.baseline.series);
             exchange(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named);
         }
@@ -351,7 +352,7 @@ fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<N
             let pieces: Vec<Piece> =
                 current.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
             let left = fit(data, Some(current), pieces, noise, &|_| true);
-            let needed = 0.5 * (left.chi2 + left.unreached - current.chi2) - named[number].score.1 as f64;
+            let needed = 0.5 * (left.left() - current.chi2) - named[number].score.1 as f64;
             (number, needed, left)
         };
         // Of two that are needed as little, the later one.
