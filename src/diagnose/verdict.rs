@@ -2,13 +2,15 @@
 
 use super::alias::alias_odds;
 use super::alone::Alone;
+use super::conclusion::Verdict;
 use super::data::Data;
 use super::evidence::tail;
 use super::fit::{fit, unfitted};
 use super::held_out::{HeldOut, held_out};
 use super::images::{Image, also_seen, images, spread};
-use super::judge::{Judgement, Place, Verdict, judge};
+use super::judge::{Judgement, judge};
 use super::lines::FLICKER;
+use super::mismatch::Place;
 use super::next::next;
 use super::noise::Noise;
 use super::noise::measured;

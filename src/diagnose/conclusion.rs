@@ -1,0 +1,147 @@
+//! The verdict in a word, from what is named and what is left.
+
+use super::search::{Named, form_share};
+
+/// The verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Simulation and recordings agree.
+    Clean,
+    /// The named effects bring the fit to the noise.
+    Explained,
+    /// Something named, something left.
+    PartlyExplained,
+    /// A mismatch, and nothing known that makes it.
+    Unexplained,
+}
+
+/// What the verdict depends on.
+pub struct Case<'a> {
+    /// Effects that the search found and that stand.
+    pub named: &'a [Named],
+    /// Whether some did not stand.
+    pub are_dropped: bool,
+    /// Random effects that are named beside them, and whether one explains what is left.
+    pub at_random: (usize, bool),
+    /// Whether a coordinate is a simpler answer than the names.
+    pub are_outvoted: bool,
+    /// Whether something is there that looks like an effect and is not.
+    pub is_misnamed: bool,
+    /// Whether the fit is far from the baseline.
+    pub is_far: bool,
+    /// Of the mismatch, the share that is left; 0 where nothing stands out.
+    pub remainder: f64,
+    /// Whether what is left leads in the coordinate in which the mismatch led.
+    pub stays: bool,
+    /// Whether the camera is described.
+    pub is_described: bool,
+}
+
+impl Case<'_> {
+    /// The verdict.
+    pub fn verdict(&self) -> Verdict {
+        let (of_random, is_random) = self.at_random;
+        let names = self.named.len() + of_random;
+        let is_known = names > 0 && !self.is_misnamed;
+        let leaves_little = self.remainder < form_share(self.named) && !(self.stays && names > 2);
+        // A simulation of which nothing is described leaves out several things at once: what explains most of them is worth its name.
+        let most_left = if names == 1 && self.is_described { 0.1 } else { 0.5 };
+        if self.are_outvoted {
+            Verdict::Unexplained
+        } else if self.remainder == 0.0 {
+            if names == 0 { Verdict::Clean } else { Verdict::Explained }
+        } else if is_known && (leaves_little || is_random && self.named.is_empty()) {
+            Verdict::Explained
+        } else if names == 0 || self.remainder > most_left || self.are_dropped || self.is_far || self.stays {
+            Verdict::Unexplained
+        } else {
+            Verdict::PartlyExplained
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(name: &'static str, chi2: f64) -> Named {
+        Named { name, ln_bayes: 0.0, score: (chi2, 1), rivals: Vec::new() }
+    }
+
+    fn case(named: &[Named], remainder: f64) -> Case<'_> {
+        Case {
+            named,
+            are_dropped: false,
+            at_random: (0, false),
+            are_outvoted: false,
+            is_misnamed: false,
+            is_far: false,
+            remainder,
+            stays: false,
+            is_described: true,
+        }
+    }
+
+    #[test]
+    fn what_is_left_decides() {
+        // A form of one per cent may leave three.
+        let one = [named("phase_step_scale", 1000.0)];
+        let verdict = |remainder| case(&one, remainder).verdict();
+        assert_eq!([0.0, 0.02].map(verdict), [Verdict::Explained; 2]);
+        assert_eq!(verdict(0.04), Verdict::PartlyExplained);
+        assert_eq!(verdict(0.2), Verdict::Unexplained);
+        // Of an undescribed camera, or by two names, half may be left.
+        assert_eq!(Case { is_described: false, ..case(&one, 0.2) }.verdict(), Verdict::PartlyExplained);
+        let two = [named("phase_step_scale", 1000.0), named("phase_drift", 500.0)];
+        assert_eq!(case(&two, 0.4).verdict(), Verdict::PartlyExplained);
+        assert_eq!(case(&two, 0.6).verdict(), Verdict::Unexplained);
+        // Nothing is named.
+        assert_eq!(case(&[], 0.0).verdict(), Verdict::Clean);
+        assert_eq!(case(&[], 0.9).verdict(), Verdict::Unexplained);
+    }
+
+    #[test]
+    fn a_weak_loose_form_does_not_excuse_what_an_exact_one_leaves() {
+        // The forms of scatter may leave 24 %, of a scale of steps 3 %.
+        let weak = [named("phase_step_scale", 1000.0), named("lens_scatter", 50.0)];
+        assert_eq!(case(&weak, 0.1).verdict(), Verdict::PartlyExplained);
+        let strong = [named("phase_step_scale", 50.0), named("lens_scatter", 1000.0)];
+        assert_eq!(case(&strong, 0.1).verdict(), Verdict::Explained);
+    }
+
+    #[test]
+    fn names_that_are_not_believed_are_none() {
+        let one = [named("phase_step_scale", 1000.0)];
+        let verdict = |change: fn(&mut Case), remainder| {
+            let mut case = case(&one, remainder);
+            change(&mut case);
+            case.verdict()
+        };
+        // A coordinate says as much, whatever is left.
+        assert_eq!(verdict(|case| case.are_outvoted = true, 0.0), Verdict::Unexplained);
+        // What is left is more than the form may leave.
+        for change in [
+            |case: &mut Case| case.are_dropped = true,
+            |case: &mut Case| case.is_far = true,
+            |case: &mut Case| case.stays = true,
+        ] {
+            assert_eq!(verdict(change, 0.05), Verdict::Unexplained);
+            assert_eq!(verdict(change, 0.02), Verdict::Explained);
+        }
+        assert_eq!(verdict(|case| case.is_misnamed = true, 0.02), Verdict::PartlyExplained);
+        // Three names must not leave anything where the mismatch led.
+        let three = ["phase_step_scale", "phase_drift", "lens_scatter"].map(|name| named(name, 1000.0));
+        assert_eq!(case(&three, 0.02).verdict(), Verdict::Explained);
+        assert_eq!(Case { stays: true, ..case(&three, 0.02) }.verdict(), Verdict::Unexplained);
+    }
+
+    #[test]
+    fn a_random_effect_explains_what_is_left_where_it_is_the_only_name() {
+        let at_random = |named, is_random| Case { at_random: (1, is_random), ..case(named, 0.05) };
+        assert_eq!(at_random(&[], true).verdict(), Verdict::Explained);
+        assert_eq!(at_random(&[], false).verdict(), Verdict::PartlyExplained);
+        assert_eq!(Case { is_misnamed: true, ..at_random(&[], true) }.verdict(), Verdict::PartlyExplained);
+        let one = [named("phase_step_scale", 1000.0)];
+        assert_eq!(at_random(&one, true).verdict(), Verdict::PartlyExplained);
+    }
+}

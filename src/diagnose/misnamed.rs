@@ -1,0 +1,47 @@
+//! Names that look right and are not: a line of several sources, a wave over the codes that is none.
+
+use super::data::Data;
+use super::lines::{FLICKER, FLICKER_HZ};
+use super::location::Location;
+use super::mismatch::Place;
+use super::noise::Noise;
+use super::overtones::{OF_CODES, overtones};
+use super::search::Found;
+use super::source::{Shown, is_one, shown};
+
+/// Of what was `found`, the effect that is not what has its name, and where that lives; noise has `inflation` times the variance that was stated.
+pub fn misnamed(
+    data: &Data,
+    found: &Found,
+    baseline: &Location,
+    noise: Noise,
+    inflation: f64,
+) -> Option<(&'static str, Place)> {
+    // Where nothing of the camera is described, overtones may be anything else that is left.
+    let waves = || if data.assumed.camera { None } else { no_wave(data, found, baseline, noise) };
+    several(found, inflation).or_else(waves)
+}
+
+/// Where something repeats with the code that was taken for a wave, but has overtones.
+fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Option<(&'static str, Place)> {
+    let named = found.named.iter().find(|named| named.name == OF_CODES)?;
+    let period_dn = overtones(data, found, noise)?;
+    let shape = format!("a pattern that repeats every {period_dn:.1} DN and is no wave");
+    let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, baseline.take);
+    Some((OF_CODES, Place { coordinate: "code", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }))
+}
+
+/// Where a line is that was taken for a flicker, but has several sources.
+fn several(found: &Found, inflation: f64) -> Option<(&'static str, Place)> {
+    let named = found.named.iter().find(|named| named.name == FLICKER)?;
+    let shown = shown(&found.fit, inflation);
+    if is_one(&shown) {
+        return None;
+    }
+    let clear = |shown: &Shown| shown.size.0 / shown.size.1;
+    let clearest = shown.iter().max_by(|a, b| clear(a).total_cmp(&clear(b)))?;
+    let shape = format!("offset, a line of {:.2} Hz that differs from recording to recording", clearest.hz);
+    let looked = found.baseline.series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);
+    let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, clearest.take);
+    Some((FLICKER, Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false }))
+}

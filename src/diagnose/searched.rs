@@ -1,0 +1,90 @@
+//! Searches: with trust in forms or without, beside noise as it shows and errors that frames share.
+
+use super::data::Data;
+use super::fit::{Fit, unfitted};
+use super::location::{Location, locate};
+use super::mismatch::places;
+use super::noise::{Noise, beyond};
+use super::random::{self, is_noisier, jitter, random_effect};
+use super::search::{Found, Search};
+
+/// How often the noise is corrected.
+const NOISE_STEPS: usize = 2;
+
+/// What a search found.
+pub struct Searched {
+    /// It.
+    pub found: Found,
+    /// What is left before it and after it.
+    pub locations: [Location; 2],
+    /// The noise beside which it was made.
+    pub noise: Noise,
+}
+
+/// What there is more of noise than was stated, of that in proportion to the signal.
+#[derive(Default)]
+pub struct InProportion {
+    /// Evidence, nats.
+    pub ln_bayes: f64,
+    /// Standard deviation of the relative variance.
+    pub square_sigma: f64,
+}
+
+/// Searches `data`, to which `baseline` was fitted without any effect, again where single pixels have more noise than was `stated`, and where frames share
+/// errors.
+pub fn searched(data: &Data, baseline: Fit, stated: Noise) -> (Searched, InProportion) {
+    let mut searched = search(data, baseline, stated);
+    let mut in_proportion = InProportion::default();
+    for _ in 0..NOISE_STEPS {
+        if !is_noisier(data, &searched.locations[1]) {
+            break;
+        }
+        let more = beyond(data, &searched.found.fit, searched.noise);
+        in_proportion.ln_bayes += more.in_proportion;
+        in_proportion.square_sigma = in_proportion.square_sigma.max(more.square_sigma);
+        searched = search(data, unfitted(data, more.noise), more.noise);
+    }
+    let beside = beside_jitter(data, searched.noise, &searched.locations[1]);
+    (beside.unwrap_or(searched), in_proportion)
+}
+
+/// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not. Where all that is left of the simulation looks like a
+/// jitter, it is made beside that.
+fn search(data: &Data, baseline: Fit, noise: Noise) -> Searched {
+    let before = locate(data, &baseline, noise);
+    let is_random = random_effect(data, &before).is_some();
+    // Beside what frames share names would be found by the dozen, and fitted, that do not stand.
+    if let Some(beside) = is_random.then(|| beside_jitter(data, noise, &before)).flatten() {
+        return beside;
+    }
+    let inflation = random::noise(data, &before).map_or(1.0, |noise| noise.inflation);
+    let end = |found: &Found| match found.named[..] {
+        [] => before.clone(),
+        _ => locate(data, &found.fit, noise),
+    };
+    let (mut found, without_trust) = Search::new(data, baseline, noise, inflation).with_trust();
+    let mut after = end(&found);
+    // Far from the baseline no form was trusted.
+    let is_far = found.baseline.is_far_from(&found.fit);
+    if let Some(search) =
+        without_trust.filter(|_| !is_far && found.trusts_forms() && !places(data, &after).is_empty())
+    {
+        found = search.without_trust();
+        after = end(&found);
+    }
+    Searched { found, locations: [before, after], noise }
+}
+
+/// The same beside errors of frames, where the `end` of a search shows such as a jitter makes, and a search that has them among the noise leaves nothing else:
+/// what frames share is no evidence for anything that does it in another way.
+fn beside_jitter(data: &Data, noise: Noise, end: &Location) -> Option<Searched> {
+    if noise.jitter != [0.0; 2] {
+        return None;
+    }
+    let beside = Noise { jitter: jitter(data, end)?, ..noise };
+    let searched = search(data, unfitted(data, beside), beside);
+    let (found, after) = (&searched.found, &searched.locations[1]);
+    // What orders the errors must not show, whether they are among the noise or not.
+    let is_random = |location: &Location| random_effect(data, location).is_some();
+    (is_random(after) && is_random(&locate(data, &found.fit, noise))).then_some(searched)
+}
