@@ -216,8 +216,8 @@ fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set: usi
         seen.unlikely += noise.ln_variance(measured, &roots);
         if by.has_jitters() {
             let frame = tangents.frame(number, index);
-            let velocity_m_s = take.moments[index].velocity_m_s;
-            seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, 0, velocity_m_s));
+            let moment = &take.moments[index];
+            seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, 0, moment));
         }
         let weight = weight(take, frame);
         let (mut sum_dn, mut samples) = (0.0, 0);

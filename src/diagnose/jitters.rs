@@ -4,6 +4,7 @@
 use super::clusters::{ENDS, PHASE, POSITION};
 use super::columns;
 use super::random::Strength;
+use crate::physics::Moment;
 use nalgebra::{Matrix2, Vector2};
 
 /// What a frame says of both errors: scores and information of phase and time, and what they share.
@@ -17,6 +18,8 @@ pub struct Frame {
     pub shared: f64,
     /// Number of its set, among all that are looked at together.
     pub set: usize,
+    /// Its own number within the set, and how many frames that has.
+    pub number: (usize, usize),
     /// The target's velocity, m/s.
     pub velocity_m_s: f64,
 }
@@ -57,15 +60,17 @@ fn ln_step(kind: usize) -> f64 {
 }
 
 impl Frame {
-    /// What the residuals of a frame of a `set`, whitened with the `roots` of their weights, say of both at this velocity.
+    /// What the residuals of the frame of a `set` that was taken at a `moment`, whitened with the `roots` of their weights, say of both.
     pub fn seen(
         frame: &columns::Frame,
         roots: &[f64],
         residuals: &[f64],
         set: usize,
-        velocity_m_s: f64,
+        moment: &Moment,
     ) -> Self {
-        let mut seen = Self { phase: (0.0, 0.0), time: (0.0, 0.0), shared: 0.0, set, velocity_m_s };
+        let &Moment { velocity_m_s, frame: number, frames, .. } = moment;
+        let number = (number, frames);
+        let mut seen = Self { phase: (0.0, 0.0), time: (0.0, 0.0), shared: 0.0, set, number, velocity_m_s };
         let tangents = frame.own[1].iter().zip(&frame.position);
         for ((root, residual), (phase, position)) in roots.iter().zip(residuals).zip(tangents) {
             let (phase, time) = (root * phase, root * velocity_m_s * position);
@@ -201,6 +206,7 @@ mod tests {
                 time: (by_time * off, by_time * by_time),
                 shared: PHASE * by_time,
                 set: 0,
+                number: (0, 1),
                 velocity_m_s: 1.0,
             });
         }
@@ -237,7 +243,8 @@ mod tests {
     /// Against the definition, by integrals over both errors.
     #[test]
     fn evidence_is_the_integral_over_both_errors() {
-        let frame = Frame { phase: (1.3, 2.0), time: (-0.4, 1.5), shared: 0.7, set: 0, velocity_m_s: 1.0 };
+        let (phase, time, shared) = ((1.3, 2.0), (-0.4, 1.5), 0.7);
+        let frame = Frame { phase, time, shared, set: 0, number: (0, 1), velocity_m_s: 1.0 };
         let (a, b) = (0.8, 0.6);
         let (mut sum, step) = (0.0, 0.02);
         for (x, y) in (-400..=400).flat_map(|x| (-400..=400).map(move |y| (x, y))) {

@@ -1,5 +1,5 @@
-//! Whether errors of frames have a mean, or go with the velocity: what does is no jitter. A shutter, or an encoder, that is always late by as much looks
-//! like a random time of moving frames to one who sees only how great the errors are.
+//! Whether errors of frames have a mean, or go with the velocity: what does is no jitter. A shutter, or an encoder, that is always late by as much, or in the same
+//! frame of every set, looks like a random time of moving frames to one who sees only how great the errors are.
 
 use super::jitters::{Frame, Jitters};
 use std::collections::BTreeMap;
@@ -34,13 +34,32 @@ struct Set {
     velocity_m_s: f64,
 }
 
-/// Whether the errors of a `kind` (0: the phase, 1: the time), which scatter by `sigma`, are not random but have a mean, or go with the velocity.
+/// Whether the errors of a `kind` (0: the phase, 1: the time), which scatter by `sigma`, are not random but have a mean, or go with the velocity: those of whole
+/// sets, or those of one frame of each.
 ///
 /// Frames of a set may share the error of its reading, so that a mean scatters as those of sets do.
 pub fn is_steady(jitters: &Jitters, kind: usize, sigma: f64) -> bool {
     let kind = &KINDS[kind];
+    let all = sets(jitters.frames().iter(), kind, sigma);
+    let mut of_number = BTreeMap::<(usize, usize), Vec<&Frame>>::new();
+    jitters.frames().iter().for_each(|frame| of_number.entry(frame.number).or_default().push(frame));
+    let of_number: Vec<Vec<Set>> =
+        of_number.into_values().map(|frames| sets(frames.into_iter(), kind, sigma)).collect();
+    let squares: f64 = sigma * sigma * all.iter().map(|set| set.weight).sum::<f64>();
+    kind.with.iter().any(|with| {
+        let steady = |sets: &[Set]| {
+            let (deviations, explained) = explained(sets, *with);
+            if deviations > STEADY { explained } else { 0.0 }
+        };
+        let of_number: f64 = of_number.iter().map(|sets| steady(sets)).sum();
+        steady(&all).max(of_number) > SHARE * squares
+    })
+}
+
+/// The errors of sets, each the mean of those of its `frames`.
+fn sets<'a>(frames: impl Iterator<Item = &'a Frame>, kind: &Kind, sigma: f64) -> Vec<Set> {
     let mut sets = BTreeMap::<usize, (f64, f64, f64)>::new();
-    for frame in jitters.frames() {
+    for frame in frames {
         let (score, information) = (kind.of)(frame);
         if information > 0.0 {
             let weight = (sigma * sigma + information.recip()).recip();
@@ -52,12 +71,7 @@ pub fn is_steady(jitters: &Jitters, kind: usize, sigma: f64) -> bool {
         }
     }
     let set = |(sum, weight, velocity_m_s): (f64, f64, f64)| Set { mean: sum / weight, weight, velocity_m_s };
-    let sets: Vec<Set> = sets.into_values().map(set).collect();
-    let weight: f64 = sets.iter().map(|set| set.weight).sum();
-    kind.with.iter().any(|with| {
-        let (deviations, explained) = explained(&sets, *with);
-        deviations > STEADY && explained > SHARE * sigma * sigma * weight
-    })
+    sets.into_values().map(set).collect()
 }
 
 /// By how many standard deviations the errors of `sets` go with a function of the velocity, and what of their squares, weighted, is explained by it.
@@ -90,16 +104,22 @@ mod tests {
     }
 
     fn of_sets(sets: usize, seed: u64, steady: impl Fn(f64) -> f64, reading: f64) -> Jitters {
+        of_frames(sets, seed, |_, velocity_m_s| steady(velocity_m_s), reading)
+    }
+
+    /// The same of `steady` errors by the frame's number, and the velocity.
+    fn of_frames(sets: usize, seed: u64, steady: impl Fn(usize, f64) -> f64, reading: f64) -> Jitters {
         let mut jitters = Jitters::default();
         for set in 0..sets {
             let draws = Draws::of(seed, set as u64).normal(FRAMES + 1);
             let velocity_m_s = if set % 2 == 0 { 1.0 } else { -1.0 };
-            for draw in &draws[..FRAMES] {
-                let error = steady(velocity_m_s) + SIGMA * draw + reading * draws[FRAMES];
+            for (number, draw) in draws[..FRAMES].iter().enumerate() {
+                let error = steady(number, velocity_m_s) + SIGMA * draw + reading * draws[FRAMES];
                 let information = 1e8;
                 let nothing = (0.0, 0.0);
                 let time = (information * error, information);
-                jitters.add(Frame { phase: nothing, time, shared: 0.0, set, velocity_m_s });
+                let number = (number, FRAMES);
+                jitters.add(Frame { phase: nothing, time, shared: 0.0, set, number, velocity_m_s });
             }
         }
         jitters
@@ -129,6 +149,19 @@ mod tests {
         // Its mean is the pixels' own.
         assert!(!is_steady(&phases(|_| SIGMA), 0, SIGMA));
         assert!(!is_steady(&phases(|_| 0.0), 0, SIGMA));
+    }
+
+    #[test]
+    fn frames_of_a_set_that_are_late_and_early_in_turn_are_no_jitter() {
+        let turns = [1.0, -1.0, 1.0, -1.0];
+        for seed in 0..40 {
+            let late = of_frames(100, seed, |number, _| SIGMA * turns[number], 0.0);
+            assert!(is_steady(&late, 1, SIGMA), "{seed}");
+            let by_velocity = of_frames(100, seed, |number, velocity| SIGMA * turns[number] * velocity, 0.0);
+            assert!(is_steady(&by_velocity, 1, SIGMA), "{seed}");
+        }
+        let a_little = of_frames(4000, 5, |number, _| 0.1 * SIGMA * turns[number], 0.0);
+        assert!(!is_steady(&a_little, 1, SIGMA));
     }
 
     #[test]
