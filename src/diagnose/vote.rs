@@ -21,8 +21,8 @@ pub struct Names {
     count: usize,
     /// Evidence, nats.
     ln_bayes: f64,
-    /// Chi squared that they explain, and by how many numbers, but for shapes.
-    chi2: (f64, usize),
+    /// By how many numbers they do, but for shapes.
+    numbers: usize,
     /// Chi squared that they would explain if their forms were exact, and by how many numbers, shapes among them.
     at_most: (f64, usize),
     /// Whether one of them is a flicker.
@@ -56,7 +56,7 @@ impl Names {
         Some(Self {
             count: named.len(),
             ln_bayes: evidences.iter().sum::<f64>().max(kept).max(promised),
-            chi2: (explained, numbers),
+            numbers,
             at_most: (explained.max(promised_chi2) + tolerated(named), numbers + shapes),
             flickers: named.iter().any(|named| named.name == FLICKER),
             is_of_other_pixels: OF_OTHER_PIXELS.contains(&first.name),
@@ -87,9 +87,10 @@ impl Names {
         if coordinate.coordinate == "neighbours" && self.is_of_other_pixels {
             return false;
         }
-        let ((chi2, columns), (explained, numbers)) = (coordinate.chi2, self.chi2);
+        let ((chi2, columns), numbers) = (coordinate.chi2, self.numbers);
+        // Tangents of a strong effect promise more than there is, and its form may leave something.
         let is_other =
-            columns < numbers || chi2 - columns as f64 > explained - numbers as f64 + 2.0 * RIVAL_NATS;
+            columns < numbers || chi2 - columns as f64 > self.at_most.0 - numbers as f64 + 2.0 * RIVAL_NATS;
         // A flicker swings.
         let is_swing = coordinate.looked > 1.0 && matches!(coordinate.coordinate, "time_s" | "set");
         let says_more = match self.flickers && is_swing {
@@ -118,7 +119,7 @@ mod tests {
     const NAMES: Names = Names {
         count: 1,
         ln_bayes: 20.0,
-        chi2: (57.0, 6),
+        numbers: 6,
         at_most: (57.0, 6),
         flickers: false,
         is_of_other_pixels: false,
@@ -136,6 +137,8 @@ mod tests {
         // By no fewer numbers they are another form of it, but if they explain more.
         assert!(!outvotes(NAMES, "phase", 19.5, (57.0, 6)));
         assert!(outvotes(NAMES, "phase", 19.5, (70.0, 6)));
+        // Or as much as its form may leave.
+        assert!(!outvotes(Names { at_most: (65.0, 6), ..NAMES }, "phase", 19.5, (70.0, 6)));
         // Of two names each must be needed.
         assert!(outvotes(Names { count: 2, ..NAMES }, "phase", 17.0, (45.0, 5)));
     }
@@ -155,7 +158,7 @@ mod tests {
         // A shape more, and it is a nat less.
         assert!(outvotes(Names { at_most: (57.0, 7), ..NAMES }, "phase", 8.0, (46.0, 2)));
         // What is far from noise is no question of it.
-        let strong = Names { ln_bayes: 4000.0, chi2: (8e3, 6), at_most: (8e3, 6), ..NAMES };
+        let strong = Names { ln_bayes: 4000.0, at_most: (8e3, 6), ..NAMES };
         assert!(!outvotes(strong, "phase", 3000.0, (8e3 + 7.0, 2)));
     }
 
