@@ -11,6 +11,8 @@ use rayon::prelude::*;
 
 /// A pixel sees what the mask does not say where chi squared is less by so much, and by this share.
 const MUCH_BETTER: (f64, f64) = (100.0, 0.02);
+/// Nor does it see the target where that is less bright than this share of what is usual: the charge, or the edge, of a neighbour that sees it does as much.
+const BRIGHT_ENOUGH: f64 = 0.35;
 
 /// Pixels that are looked at one after the other, frame by frame.
 const TOGETHER: usize = 32;
@@ -42,13 +44,19 @@ pub fn with_mask(data: &Data, noise: Noise) -> Option<(Data, usize)> {
             }
         }
     });
-    let is_other = |(&is_target, [target, background]): (&bool, &[Normal; 2])| {
-        let (target, background) = (target.chi2(), background.chi2());
+    let fitted: Vec<[Option<Fitted>; 2]> =
+        normal.iter().map(|normal| normal.map(|sums| sums.fitted())).collect();
+    let of_target = data.target.iter().zip(&fitted).filter(|(is_target, _)| **is_target);
+    let mut amplitudes: Vec<f64> =
+        of_target.filter_map(|(_, [target, _])| Some(target.as_ref()?.amplitude)).collect();
+    let usual = median(&mut amplitudes);
+    let is_other = |(&is_target, [target, background]): (&bool, &[Option<Fitted>; 2])| {
+        let (Some(target), Some(background)) = (target, background) else { return false };
         let (by_mask, other) = if is_target { (target, background) } else { (background, target) };
-        let better = by_mask.zip(other).map_or(0.0, |(by_mask, other)| by_mask - other);
-        better > MUCH_BETTER.0 + MUCH_BETTER.1 * by_mask.unwrap_or(0.0)
+        let is_better = by_mask.chi2 - other.chi2 > MUCH_BETTER.0 + MUCH_BETTER.1 * by_mask.chi2;
+        is_better && (is_target || target.amplitude > BRIGHT_ENOUGH * usual)
     };
-    let others: Vec<bool> = data.target.iter().zip(&normal).map(is_other).collect();
+    let others: Vec<bool> = data.target.iter().zip(&fitted).map(is_other).collect();
     let moved = others.iter().filter(|other| **other).count();
     let shown = || data.target.iter().zip(&others).map(|(target, other)| target ^ other).collect();
     (moved > 0).then(|| (data.with_target(shown()), moved))
@@ -62,6 +70,13 @@ struct Normal {
     square: f64,
 }
 
+/// What the best ones leave, and the amplitude that they say, at 1 m.
+#[derive(Debug, Clone, Copy)]
+struct Fitted {
+    chi2: f64,
+    amplitude: f64,
+}
+
 impl Normal {
     fn add(&mut self, own: [f64; 4], signal: f64, weight: f64) {
         let own = Vector4::from(own);
@@ -71,14 +86,15 @@ impl Normal {
         self.square += weight * signal * signal;
     }
 
-    /// What the best numbers leave.
-    fn chi2(&self) -> Option<f64> {
+    /// The best numbers; none where nothing was seen.
+    fn fitted(&self) -> Option<Fitted> {
         let scale = self.matrix.norm();
         if scale <= 0.0 {
             return None;
         }
         let solution = self.matrix.svd(true, true).solve(&self.vector, 1e-9 * scale).ok()?;
-        Some(self.square - solution.dot(&self.vector))
+        let chi2 = self.square - solution.dot(&self.vector);
+        Some(Fitted { chi2, amplitude: solution[0].hypot(solution[1]) })
     }
 }
 
@@ -137,4 +153,52 @@ pub fn outlying(series: &Series) -> Vec<usize> {
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
+    use crate::diagnose::stated_noise;
+    use crate::frames::Geometry;
+    use crate::physics::{FREQUENCY_HZ, Stage};
+    use std::path::Path;
+    use std::sync::Arc;
+
+    /// A rail with an `effect`.
+    fn rail(effect: &str) -> Data {
+        let camera = practice_camera(Geometry { width: 16, height: 12 });
+        let sensor = sensor(&camera);
+        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: 2 };
+        let bench = Arc::new(Stage::bench().pixels(&sensor, 2));
+        let chain = chain(&camera, bench, vec![injection(effect).unwrap()]);
+        let name = "four-rail";
+        let simulation =
+            Simulation { chain: &chain, sensor: &sensor, noise: true, seed: 2, recording: number_of(name) };
+        let course = plan.course(name).unwrap();
+        let take = recorded(Path::new(""), name, &plan, &course, &camera, &simulation, &|| ()).unwrap();
+        Data::of(&[take], Vec::new()).unwrap()
+    }
+
+    #[test]
+    fn a_mask_that_is_off_by_a_column_is_corrected() {
+        let data = rail("encoder_offset:offset_m=0");
+        let noise = stated_noise(&data);
+        assert!(with_mask(&data, noise).is_none());
+        let mut shifted = data.target.clone();
+        shifted.rotate_right(1);
+        let differ = shifted.iter().zip(&data.target).filter(|(a, b)| a != b).count();
+        let (mended, moved) = with_mask(&data.with_target(shifted), noise).unwrap();
+        assert_eq!((moved, &mended.target), (differ, &data.target));
+        assert_eq!(differ, 2 * 10);
+    }
+
+    /// The background there is five times as far as the target comes near, so that 15 % of this are as bright.
+    #[test]
+    fn a_background_that_sees_a_part_of_the_target_is_no_target() {
+        for share in ["0.02", "0.05", "0.15"] {
+            let data = rail(&format!("mixed_pixels:target_share={share},background_share={share}"));
+            assert!(with_mask(&data, stated_noise(&data)).is_none(), "{share}");
+        }
+    }
 }
