@@ -53,6 +53,7 @@ mod start;
 mod steady;
 mod swings;
 mod tamed;
+mod tried;
 mod verdict;
 mod vote;
 mod watchdog;

@@ -10,6 +10,7 @@ use super::noise::Noise;
 use super::pieces::{Candidate, Piece, tolerance};
 use super::random::of_name;
 use super::simpler::Simpler;
+use super::tried::Tried;
 use std::collections::BTreeMap;
 
 /// A rival within so many nats is possible too.
@@ -75,28 +76,8 @@ impl Pass {
     /// All candidates at the fit `base`, with what it has fitted projected out; beside noise that samples share, which raises the variance of what
     /// columns say by `inflation`, no models but those that stand.
     pub fn of(data: &Data, base: &Fit, candidates: &[Candidate], noise: Noise, inflation: f64) -> Self {
-        let (mut tried, mut blocks): (Vec<Piece>, Vec<Block>) = (Vec::new(), Vec::new());
-        let mut column = base.columns.len();
-        let mut parameters = vec![(usize::MAX, 0); column];
-        for (number, candidate) in candidates.iter().enumerate() {
-            // What is fitted already is not tried again.
-            if base.pieces.iter().any(|piece| piece.effect.name == candidate.effect.name) {
-                continue;
-            }
-            for (variant, of) in candidate.variants.iter().enumerate() {
-                let mut columns = Vec::new();
-                for piece in &of.pieces {
-                    for &parameter in &piece.free {
-                        columns.push(column);
-                        parameters.push((number, parameter));
-                        column += 1;
-                    }
-                    tried.push(piece.clone());
-                }
-                let variants = candidate.looked * of.rarity;
-                blocks.push(Block { candidate: number, variant, variants, columns });
-            }
-        }
+        let Tried { pieces: tried, blocks, parameters } =
+            Tried::beside(&base.pieces, base.columns.len(), candidates);
         let (tangents, _) = Tangents::new(data, &base.pixels, &base.pieces, &tried);
         let gram = Gram::of(data, &tangents, noise, &|_| true);
         let mut projected = gram.project(None);

@@ -24,6 +24,14 @@ impl Piece {
     pub fn shapes(&self) -> usize {
         self.free.iter().filter(|&&number| self.effect.parameters[number].is_shape()).count()
     }
+
+    /// Whether `other` is the same, whatever is fitted of it.
+    pub fn acts_as(&self, other: &Self) -> bool {
+        std::ptr::eq(self.effect, other.effect)
+            && self.values == other.values
+            && self.takes == other.takes
+            && self.finite == other.finite
+    }
 }
 
 /// One way in which an effect may be there: its pieces together.

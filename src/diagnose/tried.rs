@@ -1,7 +1,6 @@
 //! The columns of all ways in which candidates may be there.
 
 use super::evidence::Block;
-use super::fit::Fit;
 use super::pieces::{Candidate, Piece};
 
 /// What a pass tries.
@@ -15,11 +14,12 @@ pub struct Tried {
 }
 
 impl Tried {
-    /// All of the `candidates` that are not fitted in `base`. What two ways of a candidate have in common is one column.
-    pub fn beside(base: &Fit, candidates: &[Candidate]) -> Self {
-        let fitted = vec![(usize::MAX, 0); base.columns.len()];
-        let mut tried = Self { pieces: Vec::new(), blocks: Vec::new(), parameters: fitted };
-        let is_fitted = |of: &Candidate| base.pieces.iter().any(|piece| piece.effect.name == of.effect.name);
+    /// All of the `candidates` of which none of the `fitted` pieces is, which have so many `columns`. What two ways of a candidate have in common is one
+    /// column.
+    pub fn beside(fitted: &[Piece], columns: usize, candidates: &[Candidate]) -> Self {
+        let parameters = vec![(usize::MAX, 0); columns];
+        let mut tried = Self { pieces: Vec::new(), blocks: Vec::new(), parameters };
+        let is_fitted = |of: &Candidate| fitted.iter().any(|piece| piece.effect.name == of.effect.name);
         for (number, candidate) in candidates.iter().enumerate().filter(|(_, of)| !is_fitted(of)) {
             let mut own = Vec::new();
             for (variant, of) in candidate.variants.iter().enumerate() {
@@ -59,5 +59,42 @@ impl Tried {
             })
         };
         columns.into_iter().map(column).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::pieces::Variant;
+    use crate::physics::effects;
+
+    fn piece(name: &str, free: &[usize], takes: &[usize]) -> Piece {
+        let effect = effects::named(name).unwrap();
+        Piece { effect, values: effect.off(), free: free.to_vec(), takes: takes.to_vec(), finite: false }
+    }
+
+    fn candidate(ways: &[&[Piece]]) -> Candidate {
+        let variant = |pieces: &&[Piece]| Variant { pieces: pieces.to_vec(), rarity: 1.0 };
+        let variants: Vec<Variant> = ways.iter().map(variant).collect();
+        Candidate { effect: ways[0][0].effect, looked: 2.0, variants }
+    }
+
+    #[test]
+    fn ways_share_the_columns_of_what_they_have_in_common() {
+        let [all, few, other] = [
+            piece("frame_gain", &[0, 1, 2], &[0]),
+            piece("frame_gain", &[1, 3], &[0]),
+            piece("frame_gain", &[0, 1], &[1]),
+        ];
+        let gains = candidate(&[&[all.clone(), other.clone()], &[few], &[all]]);
+        let drift = candidate(&[&[piece("ambient_drift", &[0], &[0, 1])]]);
+        let scale = piece("phase_step_scale", &[0], &[0, 1]);
+        let tried = Tried::beside(&[scale.clone()], 1, &[candidate(&[&[scale]]), gains, drift]);
+        let columns: Vec<&[usize]> = tried.blocks.iter().map(|block| &block.columns[..]).collect();
+        // The first column is fitted already. Frame 3 is new in the second way, and the same of another recording is another column.
+        assert_eq!(columns, [&[1, 2, 3, 4, 5][..], &[2, 6], &[1, 2, 3], &[7]]);
+        assert_eq!(tried.parameters[1..], [(1, 0), (1, 1), (1, 2), (1, 0), (1, 1), (1, 3), (2, 0)]);
+        let free: Vec<&[usize]> = tried.pieces.iter().map(|piece| &piece.free[..]).collect();
+        assert_eq!(free, [&[0, 1, 2][..], &[0, 1], &[3], &[0]]);
     }
 }
