@@ -11,7 +11,7 @@ pub static EFFECT: Effect = Effect {
     sentence: "The light starts beside the lens (bistatic geometry): the way out is longer than the way back, the more the nearer \
                the target is.",
     reference: "phi = 2 pi f (sqrt(d^2 + b^2) + d) / c, geometry",
-    parameters: &[Parameter::strength("squared_baseline_m2", "m^2", 0.0, (0.0, 0.04), 2.5e-3)],
+    parameters: &[Parameter::strength("squared_baseline_m2", "m^2", 0.0, (0.0, 0.1), 2.5e-3)],
     place: Place::Waveform,
     chance: Chance::None,
     looks_back: false,
