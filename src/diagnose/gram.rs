@@ -354,9 +354,9 @@ fn inverse(own: &Matrix4<f64>) -> Matrix4<f64> {
 }
 
 impl Projected {
-    /// Takes the first `count` columns as fitted: what they share with the others is theirs.
-    pub fn give_way(&mut self, count: usize) {
-        for fitted in 0..count {
+    /// Takes some columns as `fitted`: what they share with the others is theirs.
+    pub fn give_way(&mut self, fitted: impl IntoIterator<Item = usize>) {
+        for fitted in fitted {
             let pivot = self.matrix[(fitted, fitted)];
             if pivot > 1e-9 * self.raw[fitted] {
                 let row = self.matrix.column(fitted).into_owned();

@@ -135,7 +135,7 @@ struct Said {
 
 /// What columns say that come after the `fitted` ones: those `blocks` of them, of which the first one is the whole, that say most.
 fn evidence(mut projected: Projected, fitted: usize, blocks: &[Vec<usize>]) -> Said {
-    projected.give_way(fitted);
+    projected.give_way(0..fitted);
     let block = |columns: &Vec<usize>| Block {
         candidate: 0,
         variant: 0,

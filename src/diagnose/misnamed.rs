@@ -8,6 +8,7 @@ use super::noise::Noise;
 use super::overtones::{OF_CODES, overtones};
 use super::search::Found;
 use super::source::{Shown, is_one, shown};
+use super::steps::step;
 
 /// Of what was `found`, the effect that is not what has its name, and where that lives; noise has `inflation` times the variance that was stated.
 pub fn misnamed(
@@ -22,11 +23,13 @@ pub fn misnamed(
     several(found, inflation).or_else(waves)
 }
 
-/// Where something repeats with the code that was taken for a wave, but has overtones.
+/// Where something goes with the code that was taken for a wave, but has overtones, or is a step.
 fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Option<(&'static str, Place)> {
     let named = found.named.iter().find(|named| named.name == OF_CODES)?;
-    let period_dn = overtones(data, found, noise)?;
-    let shape = format!("a pattern that repeats every {period_dn:.1} DN and is no wave");
+    let shape = match overtones(data, found, noise) {
+        Some(period_dn) => format!("a pattern that repeats every {period_dn:.1} DN and is no wave"),
+        None => format!("a step at a signal of {:.0} DN", step(data, found, noise)?),
+    };
     let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, baseline.take);
     Some((OF_CODES, Place { coordinate: "code", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }))
 }

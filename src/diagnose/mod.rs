@@ -51,6 +51,7 @@ mod simpler;
 mod source;
 mod start;
 mod steady;
+mod steps;
 mod swings;
 mod tamed;
 mod tried;

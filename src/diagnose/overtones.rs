@@ -9,9 +9,10 @@ use super::noise::Noise;
 use super::pieces::Piece;
 use super::search::Found;
 
-/// The effect that is a wave over the codes, and its parameters.
+/// The effect that is a wave over the codes.
 pub const OF_CODES: &str = "adc_nonlinearity";
-const PARTS: [usize; 2] = [0, 1];
+/// Its parameters.
+pub const PARTS: [usize; 2] = [0, 1];
 const PERIOD: usize = 2;
 /// Parts of the period in which overtones are looked for: shorter ones are lost in the noise.
 const OVERTONES: [f64; 2] = [2.0, 3.0];
@@ -31,7 +32,7 @@ pub fn overtones(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
     let (tangents, _) = Tangents::new(data, &found.fit.pixels, &found.fit.pieces, &tried);
     let mut projected = Gram::of(data, &tangents, noise, &|_| true).project(None);
     let fitted = found.fit.columns.len();
-    projected.give_way(fitted);
+    projected.give_way(0..fitted);
     let columns = (fitted..projected.vector.len()).collect();
     let blocks = [Block { candidate: 0, variant: 0, variants: 1.0, columns }];
     let reach = |_| f64::INFINITY;

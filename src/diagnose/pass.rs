@@ -81,7 +81,7 @@ impl Pass {
         let (tangents, _) = Tangents::new(data, &base.pixels, &base.pieces, &tried);
         let gram = Gram::of(data, &tangents, noise, &|_| true);
         let mut projected = gram.project(None);
-        projected.give_way(base.columns.len());
+        projected.give_way(0..base.columns.len());
         let reach = |column: usize| {
             let (number, parameter) = parameters[column];
             candidates.get(number).map_or(f64::INFINITY, |candidate| {

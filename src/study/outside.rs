@@ -7,13 +7,14 @@ use crate::problem::Result;
 /// An effect, and the coordinates where it lives: to lead with any of them is right.
 pub type Outside = (&'static Effect, &'static [&'static str]);
 
-const LIVES: [(&str, &[&str]); 6] = [
+const LIVES: [(&str, &[&str]); 7] = [
     ("ripple_of_rows", &["row", "set"]),
     ("thermostat", &["time_s", "set", "encoder"]),
     ("gain_of_every_other_set", &["set"]),
     ("shade", &["position_m"]),
     ("pulse_in_a_frame", &["frame"]),
     ("phase_of_velocity", &["velocity_m_s", "encoder"]),
+    ("step_over_the_light", &["code", "amplitude"]),
 ];
 
 const FORMULAS: &str = r#"
@@ -58,6 +59,13 @@ sentence = "The phase is off while the carriage moves, by its velocity."
 acts_on = "phase"
 formula = "relative_rad * velocity_m_s"
 parameter = [{ name = "relative_rad", unit = "rad s/m", bounds = [-3, 3], typical = 0.01 }]
+
+[[effect]]
+name = "step_over_the_light"
+sentence = "A pixel takes charge away as soon as it has so much, and not all of it comes back."
+acts_on = "signal"
+formula = "amplitude_dn / (1 + exp((500 - signal) / 5))"
+parameter = [{ name = "amplitude_dn", unit = "DN", bounds = [-500, 500], typical = 1 }]
 "#;
 
 /// All of them.

@@ -1,0 +1,111 @@
+//! A step over the signal that was taken for a wave over the codes: a converter's stage, or a pixel that takes ambient light away, switches at one level.
+
+use super::acting::Acting;
+use super::columns::{Frame, Tangents};
+use super::data::Data;
+use super::gram::Gram;
+use super::noise::Noise;
+use super::overtones::{OF_CODES, PARTS};
+use super::search::Found;
+use nalgebra::{DMatrix, DVector};
+
+/// Levels that are looked at, evenly apart in the signal's root: where most codes are, at a small signal, they are nearer to each other.
+const LEVELS: usize = 64;
+
+/// The level, DN above the pedestal, at which a step explains as much as the wave over the codes that was `found`, beside all else that was.
+pub fn step(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
+    let fit = &found.fit;
+    let piece = fit.pieces.iter().position(|piece| piece.effect.name == OF_CODES)?;
+    let level_dn = |level: usize| {
+        let place = (level as f64 + 0.5) / LEVELS as f64;
+        place * place * fit.pixels.full_scale_dn
+    };
+    let fill = |_: usize, _: usize, frame: &Frame| {
+        let mut acting = Acting::default();
+        for level in 0..LEVELS {
+            let least = level_dn(level);
+            acting.column(level, frame.base.iter().map(|&dn| f64::from(u8::from(dn > least))).collect());
+        }
+        vec![acting]
+    };
+    let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
+    let (gram, ()) =
+        Gram::with_blocks(data, &tangents, noise, &|_| true, &[LEVELS], &fill, &|(), _| (), &|(), ()| ());
+    let mut projected = gram.project(Some(fit.jitter_m2));
+    let is_wave = |column: &usize| fit.columns[*column].piece == piece;
+    projected.give_way((0..fit.columns.len()).filter(|column| !is_wave(column)));
+    // As large as the wave is, by parts.
+    let parts: Vec<usize> = (0..fit.columns.len())
+        .filter(|column| is_wave(column) && PARTS.contains(&fit.columns[*column].parameter))
+        .collect();
+    let of = |&column: &usize| fit.pieces[piece].values[fit.columns[column].parameter];
+    let wave = DVector::from_iterator(parts.len(), parts.iter().map(of));
+    let steps: Vec<usize> = (0..LEVELS).map(|level| fit.columns.len() + level).collect();
+    let (information, score) = (&projected.matrix, &projected.vector);
+    let explained = alone(information, score, (&parts, &wave), &steps);
+    let seen =
+        |level: &usize| information[(steps[*level], steps[*level])] > SEEN * projected.raw[steps[*level]];
+    let best = (0..LEVELS).filter(seen).max_by(|&a, &b| explained.steps[a].total_cmp(&explained.steps[b]))?;
+    (explained.steps[best] >= explained.wave).then(|| level_dn(best))
+}
+
+/// Of a step's information so much is left where the pixels' own numbers do not say the same.
+const SEEN: f64 = 1e-6;
+
+/// What each explains where the others are not.
+struct Explained {
+    wave: f64,
+    steps: Vec<f64>,
+}
+
+/// From information and score at a fit that has a wave of these parts: chi squared that the wave, and in its place each step, explains.
+fn alone(
+    information: &DMatrix<f64>,
+    score: &DVector<f64>,
+    (parts, wave): (&[usize], &DVector<f64>),
+    steps: &[usize],
+) -> Explained {
+    let with_wave = |column: usize| -> f64 {
+        parts.iter().zip(wave.iter()).map(|(&part, size)| information[(column, part)] * size).sum()
+    };
+    let of_step = |&step: &usize| {
+        let of = information[(step, step)];
+        if of > 0.0 { (score[step] + with_wave(step)).powi(2) / of } else { 0.0 }
+    };
+    Explained {
+        wave: parts.iter().zip(wave.iter()).map(|(&part, size)| size * with_wave(part)).sum(),
+        steps: steps.iter().map(of_step).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against least squares of each alone, on samples with a wave and a step.
+    #[test]
+    fn each_explains_what_it_does_alone() {
+        let samples = 60;
+        let columns = |sample: usize| {
+            let x = sample as f64 / samples as f64;
+            [(5.0 * x).cos(), (5.0 * x).sin(), f64::from(u8::from(x > 0.3)), f64::from(u8::from(x > 0.6))]
+        };
+        let design = DMatrix::from_fn(samples, 4, |sample, column| columns(sample)[column]);
+        let measured = DVector::from_fn(samples, |sample, _| {
+            columns(sample)[0] * 0.7 + columns(sample)[3] + 0.1 * (17.0 * sample as f64).sin()
+        });
+        let taken = |of: &DMatrix<f64>| {
+            let (matrix, vector) = (of.tr_mul(of), of.tr_mul(&measured));
+            vector.dot(&matrix.cholesky().unwrap().solve(&vector))
+        };
+        let wave = design.columns(0, 2).into_owned();
+        let fitted = wave.tr_mul(&wave).cholesky().unwrap().solve(&wave.tr_mul(&measured));
+        let left = &measured - &wave * &fitted;
+        let explained = alone(&design.tr_mul(&design), &design.tr_mul(&left), (&[0, 1], &fitted), &[2, 3]);
+        let is = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        assert!(is(explained.wave, taken(&wave)));
+        for (step, column) in explained.steps.iter().zip([2, 3]) {
+            assert!(is(*step, taken(&design.columns(column, 1).into_owned())));
+        }
+    }
+}
