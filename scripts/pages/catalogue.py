@@ -82,6 +82,38 @@ def emitter_beside(frame, beside_m):
     return np.sqrt((column_m - beside_m) ** 2 + row_m**2 + frame.axial_m**2) - frame.range_m
 
 
+def second_path(longer_m, share):
+    """Light that comes back by a way that is longer by `longer_m` there and back, with a share of the target's own."""
+
+    def act(frame):
+        scene, more_m = frame.scene, longer_m(frame.range_m)
+        angle = frame.angle_rad - frame.phase_rad - TURN * FREQUENCY_HZ * more_m / LIGHT_M_S
+        wave = sum(a * np.cos(m * angle + p) for m, (a, p) in enumerate(zip(AMPLITUDES, PHASES_RAD), 1) if a)
+        part = frame.strength * share(frame.range_m, more_m) * scene.mask
+        frame.ambient_dn = frame.ambient_dn + part * (frame.amplitude_dn * wave + frame.constant_dn)
+
+    return "ambient", act
+
+
+def forgotten(effect):
+    """What the camera's description does not include."""
+    return "camera", effect
+
+
+def edges(frame):
+    """What a pixel at the target's edge would see more if it saw what is beyond."""
+    padded, mask = np.pad(frame.dn, 1, mode="edge"), np.pad(frame.scene.mask, 1, mode="edge")
+    around = np.s_[:-2, 1:-1], np.s_[2:, 1:-1], np.s_[1:-1, :-2], np.s_[1:-1, 2:]
+    beyond = [(padded[side], mask[side] != frame.scene.mask) for side in around]
+    count = sum(is_other.astype(int) for _, is_other in beyond)
+    return sum(np.where(is_other, dn - frame.dn, 0.0) for dn, is_other in beyond) / np.maximum(count, 1)
+
+
+def sideways(frame, moved_px):
+    """The image moved to the right by a part of a pixel."""
+    return moved_px * (np.pad(frame.dn, 1, mode="edge")[1:-1, :-2] - frame.dn)
+
+
 FULL_DN = FULL_SCALE - PEDESTAL_DN
 TURN = 6.283185307179586
 SCALE = add("clock", "angle_rad", lambda f: 0.004 * f.number * STEPS_RAD[f.count])
@@ -98,6 +130,11 @@ SPREAD = add("image", "dn", lambda f: 0.0025 * neighbours(f))
 JITTER = add("path", "phase_rad", lambda f: 0.003 * f.rng.standard_normal())
 FASTER = add("path", "phase_rad", lambda f: 0.002 * 2 * TURN * FREQUENCY_HZ * f.range_m / LIGHT_M_S)
 DIMMER = fading(lambda f: -0.005 * (1 - np.exp(-f.time_s / 10.0)))
+WALL = second_path(lambda d: np.sqrt(d * d + 4 * 0.6**2) - d, lambda d, more: 0.03 * d / (d + more))
+ZERO = add("encoder", "read_m", lambda f: -0.02)
+SCREW = add("encoder", "read_m", lambda f: 6e-4 * np.sin(TURN * f.place_m / 0.37 + 1.0))
+TAPS = add("response", "dn", lambda f: 0.002 * (f.number % 2 - 0.5) * f.dn)
+EDGES = add("image", "dn", lambda f: 0.03 * edges(f))
 DROOP = fading(lambda f: -0.002 * f.number / (f.count - 1))
 
 # Name: what it does, what may be named (each of one of a set), or, of what no library has, where it lives.
@@ -134,6 +171,42 @@ CASES = {
     "drift+step-scale": ([BRIGHTER, SCALE], [{"ambient_drift"}, {"phase_step_scale"}]),
     "diffusion+clock-jitter": ([SPREAD, JITTER], [{"charge_crosstalk"}, {"clock_jitter"}]),
     "frequency+decay": ([FASTER, DIMMER], [{"modulation_frequency_error", "encoder_scale"}, {"illumination_drift"}]),
+    "falloff-forgotten": ([forgotten("inverse_square_falloff")], [{"inverse_square_falloff"}]),
+    "motion-forgotten": ([forgotten("axial_motion_of_recorded_velocity")], [{"axial_motion"}]),
+    "wall-beside": ([WALL], [{"multipath_interference"}]),
+    "wall-behind": ([second_path(lambda d: 1.6 + 0 * d, lambda d, more: 0.02 * (d / (d + more / 2)) ** 2)], [{"multipath_interference"}]),
+    "encoder-long": ([add("encoder", "read_m", lambda f: -0.003 * f.place_m)], [{"encoder_scale", "modulation_frequency_error"}]),
+    "encoder-zero": ([ZERO], [{"encoder_offset"}]),
+    "lead-screw": ([SCREW], [{"encoder_cyclic"}]),
+    "two-taps": ([TAPS], [{"tap_mismatch"}]),
+    "sideways": ([add("image", "dn", lambda f: sideways(f, 0.4 * (f.time_s - f.set_s)))], [{"lateral_motion"}]),
+    "edges": ([EDGES], [{"mixed_pixels"}]),
+    "speckle": ([add("response", "dn", lambda f: 0.006 * f.dn * f.rng.standard_normal(f.dn.shape))], [{"excess_noise"}]),
+    "feed-through+step-scale": ([COUPLED, SCALE], [{"electrical_crosstalk"}, {"phase_step_scale"}]),
+    "falloff-forgotten+harmonics": (
+        [forgotten("inverse_square_falloff"), waveform(h2=0.004, h4=0.004)],
+        [{"inverse_square_falloff"}, {"correlation_harmonics"}],
+    ),
+    "motion-forgotten+flicker": (
+        [forgotten("axial_motion_of_recorded_velocity"), MAINS],
+        [{"axial_motion"}, {"ambient_flicker"}],
+    ),
+    "lag+wall": ([lag(0.003), WALL], [{"image_lag"}, {"multipath_interference"}]),
+    "zero+step-errors": ([ZERO, ERRORS], [{"encoder_offset"}, {"phase_step_errors"}]),
+    "screw+droop": ([SCREW, DROOP], [{"encoder_cyclic"}, {"illumination_droop"}]),
+    "edges+drift": ([EDGES, BRIGHTER], [{"mixed_pixels"}, {"ambient_drift"}]),
+    "taps+stray-light": ([TAPS, VEILED], [{"tap_mismatch"}, {"lens_scatter"}]),
+    "wall+response": ([WALL, BENT], [{"multipath_interference"}, {"intensity_nonlinearity"}]),
+    "flicker+harmonics": ([MAINS, waveform(h3=0.006)], [{"ambient_flicker"}, {"correlation_harmonics"}]),
+    "every-other-set": ([fading(lambda f: 0.0015 * (-1) ** f.set)], "set"),
+    "shade": ([fading(lambda f: -0.01 * np.exp(-(((f.place_m - 1.7) / 0.12) ** 2)))], "position_m"),
+    "gain-of-offset": ([fading(lambda f: 0.002 * np.cos(3 * f.offset_rad + 0.4))], "phase"),
+    "late-columns": (
+        [add("path", "phase_rad", lambda f: 2 * TURN * FREQUENCY_HZ * f.velocity_m_s * 4e-5 * columns / LIGHT_M_S)],
+        "column velocity_m_s",
+    ),
+    "dark-columns-late": ([add("path", "phase_rad", lambda f: 0.02 * (columns / WIDTH - 0.5) * (f.amplitude_dn / 400.0))], "column amplitude"),
+    "thermostat": ([add("path", "phase_rad", lambda f: 0.004 * np.sign(np.sin(TURN * f.time_s / 11.0)))], "time_s set"),
     "second-camera": (
         [add("image", "dn", lambda f: 0.8 * np.cos(TURN * 0.37 * f.time_s + f.angle_rad) * (1 + 0.3 * columns / WIDTH))],
         "time_s frame set",
@@ -149,7 +222,7 @@ CASES = {
     "background-suppression": ([add("response", "dn", lambda f: 2.0 * (f.dn > 700.0))], "code amplitude"),
     "bands": ([add("response", "dn", lambda f: 0.5 * np.sin(TURN * (rows / 6.0 + 1.7 * f.time_s)))], "row time_s"),
 }
-STAGES = ["clock", "light", "path", "wave", "ambient", "image", "response", "code"]
+STAGES = ["camera", "encoder", "clock", "light", "path", "wave", "ambient", "image", "response", "code"]
 
 
 def schedule():
@@ -171,34 +244,34 @@ def schedule():
         yield f"{scheme}-motion", "motion", frames, runs
 
 
+def pass_stage(stage, frame, acts):
+    for of, act in acts:
+        if of == stage:
+            act(frame)
+
+
 def expose(frame, scene, acts):
     """The codes of one frame."""
-
-    def pass_stage(stage):
-        for of, act in acts:
-            if of == stage:
-                act(frame)
-
-    pass_stage("clock")
+    pass_stage("clock", frame, acts)
     gone_m = frame.velocity_m_s * (frame.time_s - frame.set_s)
     frame.axial_m = np.where(scene.mask, frame.place_m + gone_m, BACKGROUND_M)
     frame.range_m = frame.axial_m * scene.obliquity
     frame.amplitude_dn, frame.constant_dn = scene.amplitude_dn / frame.range_m**2, scene.constant_dn / frame.range_m**2
-    pass_stage("light")
+    pass_stage("light", frame, acts)
     frame.phase_rad = scene.phase_rad + 2 * TURN * FREQUENCY_HZ * frame.range_m / LIGHT_M_S
-    pass_stage("path")
+    pass_stage("path", frame, acts)
     angle = frame.angle_rad - frame.phase_rad
     harmonics = enumerate(zip(AMPLITUDES, PHASES_RAD), 1)
     frame.wave = sum(a * np.cos(m * angle + p) for m, (a, p) in harmonics if a)
-    pass_stage("wave")
+    pass_stage("wave", frame, acts)
     frame.ambient_dn = scene.ambient_dn.copy()
-    pass_stage("ambient")
+    pass_stage("ambient", frame, acts)
     frame.dn = frame.amplitude_dn * frame.wave + frame.constant_dn + frame.ambient_dn
-    pass_stage("image")
-    pass_stage("response")
+    pass_stage("image", frame, acts)
+    pass_stage("response", frame, acts)
     electrons = frame.rng.poisson(np.maximum(frame.dn, 0) * GAIN_E_DN) + READ_NOISE_E * frame.rng.standard_normal(frame.dn.shape)
     frame.code = electrons / GAIN_E_DN + PEDESTAL_DN
-    pass_stage("code")
+    pass_stage("code", frame, acts)
     return np.clip(np.round(frame.code), 0, FULL_SCALE)
 
 
@@ -216,24 +289,31 @@ def make_scene(rng):
     )
 
 
+KNOWN = ["axial_motion_of_recorded_velocity", "inverse_square_falloff"]
+
+
 def make_campaign(folder, acts, strength, rng):
+    left_out = [of for stage, of in acts if stage == "camera"]
     scene = make_scene(rng)
     errors = {frames: rng.standard_normal(frames) for frames in STEPS_RAD}
     folder.mkdir(parents=True)
     (folder / "camera.toml").write_text(
         f"[sensor]\nwidth = {WIDTH}\nheight = {HEIGHT}\nadc_bits = 12\npedestal_dn = {PEDESTAL_DN}\n"
         f"gain_e_per_dn = {GAIN_E_DN}\nread_noise_e = {READ_NOISE_E}\nfocal_length_px = {FOCAL_LENGTH_PX}\n\n"
-        f"[correlation]\namplitude = {AMPLITUDES}\nphase_rad = {PHASES_RAD}\n"
+        f"[correlation]\namplitude = {AMPLITUDES}\nphase_rad = {PHASES_RAD}\n\n"
+        f"[physics]\nincluded = {json.dumps([name for name in KNOWN if name not in left_out])}\n"
     )
     for name, kind, count, sets in schedule():
         began_s, before, lines = rng.uniform(0, 100), None, ["set,time_s,position_m,velocity_m_s,phase_offset_rad"]
         codes = np.zeros((len(sets), count, HEIGHT, WIDTH), "<u2")
         for number, (set_s, place_m, velocity_m_s, offset_rad) in enumerate(sets):
-            read_m = place_m + ENCODER_M * rng.standard_normal()
-            lines.append(f"{number},{set_s:.6f},{read_m:.5f},{velocity_m_s},{offset_rad:.9f}")
+            reading = SimpleNamespace(strength=strength, place_m=place_m, read_m=place_m + ENCODER_M * rng.standard_normal())
+            pass_stage("encoder", reading, acts)
+            lines.append(f"{number},{set_s:.6f},{reading.read_m:.5f},{velocity_m_s},{offset_rad:.9f}")
             for n in range(count):
                 frame = SimpleNamespace(
-                    rng=rng, strength=strength, errors=errors, began_s=began_s, before=before, kept=None, count=count, number=n,
+                    rng=rng, scene=scene, strength=strength, errors=errors, began_s=began_s, before=before, kept=None, count=count, number=n,
+                    set=number, offset_rad=offset_rad,
                     set_s=set_s, time_s=set_s + n * FRAME_PERIOD_S, place_m=place_m, velocity_m_s=velocity_m_s,
                     angle_rad=n * STEPS_RAD[count] + offset_rad,
                 )  # fmt: skip
@@ -290,12 +370,15 @@ def said(verdict):
     return word + (f", in {verdict['located'][0]['coordinate']}" if verdict["located"] else "")
 
 
+STRENGTHS = "as above", "a third as strong", "three times as strong"
+
+
 def table(folders):
     verdicts = {name: [json.loads((folder / f"{name}.json").read_text()) for folder in folders] for name in CASES}
-    print("| what was done | the answer | | a third as strong | |\n|---|---|---|---|---|")
+    print("| what was done | the answer | | " + " | | ".join(STRENGTHS[1:]) + " | |\n|---" + "|---|---" * len(folders) + "|")
     for name, of_name in verdicts.items():
         print(f"| {name} |", " | ".join(f"{said(verdict)} | {judged(name, verdict)}" for verdict in of_name), "|")
-    for column, which in enumerate(("as above", "a third as strong")):
+    for column, which in enumerate(STRENGTHS):
         marks = [judged(name, of_name[column]) for name, of_name in verdicts.items()]
         counts = [f"{marks.count(mark)} {mark}" for mark in ("right", "possible", "partly", "silent", "wrong")]
         print(f"\n{which}, of {len(marks)}: {', '.join(counts)}")

@@ -18,11 +18,11 @@ done
 
 rm -rf "$OUT"
 mkdir -p "$OUT"
-for strength in 1 0.33; do
+for strength in 1 0.33 3; do
   "$PYTHON" scripts/pages/catalogue.py make "$OUT/$strength" "$SEED" "$strength"
   "$PYTHON" scripts/pages/catalogue.py names | RAYON_NUM_THREADS=1 xargs -P "$(nproc)" -I{} \
     sh -c '"$1" diagnose "$2" --json "$2.json" >/dev/null' - "$VURIS" "$OUT/$strength/{}" ||
     fail "a campaign of $OUT/$strength could not be diagnosed"
 done
-"$PYTHON" scripts/pages/catalogue.py table "$OUT/1" "$OUT/0.33" >"$OUT/table.md"
+"$PYTHON" scripts/pages/catalogue.py table "$OUT/1" "$OUT/0.33" "$OUT/3" >"$OUT/table.md"
 put "$PAGE" answers <"$OUT/table.md"
