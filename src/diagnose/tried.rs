@@ -89,7 +89,8 @@ mod tests {
         let gains = candidate(&[&[all.clone(), other.clone()], &[few], &[all]]);
         let drift = candidate(&[&[piece("ambient_drift", &[0], &[0, 1])]]);
         let scale = piece("phase_step_scale", &[0], &[0, 1]);
-        let tried = Tried::beside(std::slice::from_ref(&scale), 1, &[candidate(&[&[scale]]), gains, drift]);
+        let fitted = candidate(&[std::slice::from_ref(&scale)]);
+        let tried = Tried::beside(std::slice::from_ref(&scale), 1, &[fitted, gains, drift]);
         let columns: Vec<&[usize]> = tried.blocks.iter().map(|block| &block.columns[..]).collect();
         // The first column is fitted already. Frame 3 is new in the second way, and the same of another recording is another column.
         assert_eq!(columns, [&[1, 2, 3, 4, 5][..], &[2, 6], &[1, 2, 3], &[7]]);
