@@ -74,7 +74,7 @@ proof: build ## two hundred blind campaigns of a second generator: made, answere
 open-question: build ## the paper's open question asked of the diagnosis: docs/open-question.md anew (three minutes)
 	bash scripts/pages/open-question.sh $(VURIS)
 
-catalogue: setup build ## effects written down again, in numpy, and diagnosed: docs/catalogue.md anew (seven minutes)
+catalogue: setup build ## effects written down again, in numpy, and diagnosed: docs/catalogue.md anew (half an hour)
 	@bash scripts/hdl-tools.sh cocotb
 	bash scripts/pages/catalogue.sh $(VURIS)
 

@@ -136,6 +136,19 @@ fn a_bit_that_comes_late_is_no_wave() {
     assert_eq!(names(&wave), ["adc_nonlinearity"], "{wave:#}");
 }
 
+/// A step of the offset at one signal, too weak for its overtones: a wave as long as the signals reach says most of it.
+#[test]
+fn a_step_over_the_signal_is_no_wave() {
+    let step = verdict_of("four-rail,four-motion,wdft-rail,wdft-motion", |sample| {
+        with(sample, if sample.code > 664.0 { 0.55 } else { 0.0 })
+    });
+    assert_eq!(names(&step), [""; 0], "{step:#}");
+    assert_eq!(step["verdict"], "unexplained");
+    let place = &step["located"][0];
+    assert_eq!(place["coordinate"], "code", "{step:#}");
+    assert!(place["shape"].as_str().unwrap().starts_with("a step near a signal of "), "{place:#}");
+}
+
 /// A gain that swings with a thermostat, by a fifth of the noise: no function of the time that few numbers say.
 #[test]
 fn a_swing_is_a_mismatch_in_time() {

@@ -3,13 +3,14 @@ program that diagnoses them.
 
     python catalogue.py make DIR SEED STRENGTH     campaigns DIR/NAME
     python catalogue.py names                      their names
-    python catalogue.py table DIR DIR              what the verdicts DIR/NAME.json of two strengths are worth, as a table
+    python catalogue.py table DIR DIR DIR          what the verdicts DIR/NAME.json of three strengths are worth, as a table
 
 A frame is A sum_m a_m cos(m (theta - phi) + p_m) + B + ambient light, phi = 4 pi f d / c; electrons are Poisson's, read noise normal, codes whole.
 """
 
 import json
 import sys
+import zlib
 from itertools import permutations
 from pathlib import Path
 from types import SimpleNamespace
@@ -96,7 +97,7 @@ def second_path(longer_m, share):
 
 
 def forgotten(effect):
-    """What the camera's description does not include."""
+    """What the camera's description does not include: it has no strength."""
     return "camera", effect
 
 
@@ -202,7 +203,7 @@ CASES = {
     "shade": ([fading(lambda f: -0.01 * np.exp(-(((f.place_m - 1.7) / 0.12) ** 2)))], "position_m"),
     "gain-of-offset": ([fading(lambda f: 0.002 * np.cos(3 * f.offset_rad + 0.4))], "phase"),
     "late-columns": (
-        [add("path", "phase_rad", lambda f: 2 * TURN * FREQUENCY_HZ * f.velocity_m_s * 4e-5 * columns / LIGHT_M_S)],
+        [add("path", "phase_rad", lambda f: 2 * TURN * FREQUENCY_HZ * f.velocity_m_s * 4e-5 * columns * f.scene.mask / LIGHT_M_S)],
         "column velocity_m_s",
     ),
     "dark-columns-late": ([add("path", "phase_rad", lambda f: 0.02 * (columns / WIDTH - 0.5) * (f.amplitude_dn / 400.0))], "column amplitude"),
@@ -331,9 +332,9 @@ def make_campaign(folder, acts, strength, rng):
 
 
 def make(folder, seed, strength):
-    for number, (name, (acts, _)) in enumerate(CASES.items()):
+    for name, (acts, _) in CASES.items():
         assert all(stage in STAGES for stage, _ in acts), name
-        make_campaign(folder / name, acts, strength, np.random.default_rng([seed, number]))
+        make_campaign(folder / name, acts, strength, np.random.default_rng([seed, zlib.crc32(name.encode())]))
 
 
 def judged(name, verdict):
@@ -375,7 +376,7 @@ STRENGTHS = "as above", "a third as strong", "three times as strong"
 
 def table(folders):
     verdicts = {name: [json.loads((folder / f"{name}.json").read_text()) for folder in folders] for name in CASES}
-    print("| what was done | the answer | | " + " | | ".join(STRENGTHS[1:]) + " | |\n|---" + "|---|---" * len(folders) + "|")
+    print("| what was done | the answer | | " + " | | ".join(STRENGTHS[1:]) + " | |\n|---" + "|---|---" * len(STRENGTHS) + "|")
     for name, of_name in verdicts.items():
         print(f"| {name} |", " | ".join(f"{said(verdict)} | {judged(name, verdict)}" for verdict in of_name), "|")
     for column, which in enumerate(STRENGTHS):

@@ -104,9 +104,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let shared = random::noise(data, &end);
     let are_raised = seems.is_some() || shared.is_some();
     let names = if is_far || are_raised { None } else { Names::of(&found, &named, explained) };
-    if at_random.iter().any(|random| random.name == EXCESS_NOISE) {
-        places.extend(excess.map(|excess| of_excess(&excess, end.take)));
-    }
+    places.extend(excess.map(|excess| of_excess(&excess, end.take)));
     // What still lives where the mismatch lived most was not explained.
     let first = |places: &[Place]| places.first().map(|place| place.coordinate);
     let case = Case {

@@ -26,9 +26,13 @@ pub fn misnamed(
 /// Where something goes with the code that was taken for a wave, but has overtones, or is a step.
 fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Option<(&'static str, Place)> {
     let named = found.named.iter().find(|named| named.name == OF_CODES)?;
-    let shape = match overtones(data, found, noise) {
-        Some(period_dn) => format!("a pattern that repeats every {period_dn:.1} DN and is no wave"),
-        None => format!("a step at a signal of {:.0} DN", step(data, found, noise)?),
+    // A step has overtones, too, and repeats nowhere.
+    let shape = match step(data, found, noise) {
+        Some(level_dn) => format!("a step near a signal of {level_dn:.0} DN above the pedestal"),
+        None => {
+            let period_dn = overtones(data, found, noise)?;
+            format!("a pattern that repeats every {period_dn:.1} DN and is no wave")
+        }
     };
     let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, baseline.take);
     Some((OF_CODES, Place { coordinate: "code", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }))

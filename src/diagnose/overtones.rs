@@ -11,7 +11,7 @@ use super::search::Found;
 
 /// The effect that is a wave over the codes.
 pub const OF_CODES: &str = "adc_nonlinearity";
-/// Its parameters.
+/// Its strengths, and its shape.
 pub const PARTS: [usize; 2] = [0, 1];
 const PERIOD: usize = 2;
 /// Parts of the period in which overtones are looked for: shorter ones are lost in the noise.

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 /// A pixel sees what the mask does not say where chi squared is less by so much, and by this share.
 const MUCH_BETTER: (f64, f64) = (100.0, 0.02);
-/// Nor does it see the target where that is less bright than this share of what is usual: the charge, or the edge, of a neighbour that sees it does as much.
+/// Nor does it see the target where that is less bright than this share of what neighbours see that do: their charge, or an edge within it, does as much.
 const BRIGHT_ENOUGH: f64 = 0.35;
 
 /// Pixels that are looked at one after the other, frame by frame.
@@ -46,17 +46,26 @@ pub fn with_mask(data: &Data, noise: Noise) -> Option<(Data, usize)> {
     });
     let fitted: Vec<[Option<Fitted>; 2]> =
         normal.iter().map(|normal| normal.map(|sums| sums.fitted())).collect();
-    let of_target = data.target.iter().zip(&fitted).filter(|(is_target, _)| **is_target);
-    let mut amplitudes: Vec<f64> =
-        of_target.filter_map(|(_, [target, _])| Some(target.as_ref()?.amplitude)).collect();
-    let usual = median(&mut amplitudes);
-    let is_other = |(&is_target, [target, background]): (&bool, &[Option<Fitted>; 2])| {
-        let (Some(target), Some(background)) = (target, background) else { return false };
+    let amplitude = |pixel: usize| fitted[pixel][0].as_ref().map(|target| target.amplitude);
+    let of_target = |pixels: &mut dyn Iterator<Item = usize>| -> Vec<f64> {
+        pixels.filter(|&pixel| data.target[pixel]).filter_map(amplitude).collect()
+    };
+    let usual = median(&mut of_target(&mut (0..count)));
+    let geometry = data.geometry();
+    let is_bright = |pixel: usize| {
+        let around = geometry.beside(pixel).into_iter().chain(geometry.diagonal(pixel)).flatten();
+        let seen = of_target(&mut around.into_iter());
+        let usual = if seen.is_empty() { usual } else { seen.iter().sum::<f64>() / seen.len() as f64 };
+        amplitude(pixel).is_some_and(|amplitude| amplitude > BRIGHT_ENOUGH * usual)
+    };
+    let is_other = |pixel: usize| {
+        let [Some(target), Some(background)] = fitted[pixel] else { return false };
+        let is_target = data.target[pixel];
         let (by_mask, other) = if is_target { (target, background) } else { (background, target) };
         let is_better = by_mask.chi2 - other.chi2 > MUCH_BETTER.0 + MUCH_BETTER.1 * by_mask.chi2;
-        is_better && (is_target || target.amplitude > BRIGHT_ENOUGH * usual)
+        is_better && (is_target || is_bright(pixel))
     };
-    let others: Vec<bool> = data.target.iter().zip(&fitted).map(is_other).collect();
+    let others: Vec<bool> = (0..count).map(is_other).collect();
     let moved = others.iter().filter(|other| **other).count();
     let shown = || data.target.iter().zip(&others).map(|(target, other)| target ^ other).collect();
     (moved > 0).then(|| (data.with_target(shown()), moved))
@@ -193,7 +202,7 @@ mod tests {
         assert_eq!(differ, 2 * 10);
     }
 
-    /// The background there is five times as far as the target comes near, so that 15 % of this are as bright.
+    /// The background there is three or four times as far as the target comes near: what a pixel sees of this by its edge is soon more than its own light.
     #[test]
     fn a_background_that_sees_a_part_of_the_target_is_no_target() {
         for share in ["0.02", "0.05", "0.15"] {

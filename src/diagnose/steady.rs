@@ -17,7 +17,7 @@ const MOST: f64 = 4.0;
 struct Kind {
     /// Score and information of a frame.
     of: fn(&Frame) -> (f64, f64),
-    /// Functions of the velocity. The mean of the phase is the pixels' own.
+    /// Functions of the velocity. The mean of the phase is the pixels' own, and that of one frame of each set the columns of the frames say.
     with: &'static [fn(f64) -> f64],
 }
 

@@ -3,6 +3,7 @@
 use super::acting::Acting;
 use super::columns::{Frame, Tangents};
 use super::data::Data;
+use super::evidence::VISIBLE;
 use super::gram::Gram;
 use super::noise::Noise;
 use super::overtones::{OF_CODES, PARTS};
@@ -12,7 +13,11 @@ use nalgebra::{DMatrix, DVector};
 /// Levels that are looked at, evenly apart in the signal's root: where most codes are, at a small signal, they are nearer to each other.
 const LEVELS: usize = 64;
 
-/// The level, DN above the pedestal, at which a step explains as much as the wave over the codes that was `found`, beside all else that was.
+/// Of what the wave explains, it says less than this share beside a step that was taken for it.
+const BESIDE: f64 = 0.25;
+
+/// The level, DN above the pedestal, near which a step explains as much as the wave over the codes that was `found`, and most of what that does, beside
+/// all else that was.
 pub fn step(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
     let fit = &found.fit;
     let piece = fit.pieces.iter().position(|piece| piece.effect.name == OF_CODES)?;
@@ -43,22 +48,28 @@ pub fn step(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
     let steps: Vec<usize> = (0..LEVELS).map(|level| fit.columns.len() + level).collect();
     let (information, score) = (&projected.matrix, &projected.vector);
     let explained = alone(information, score, (&parts, &wave), &steps);
-    let seen =
-        |level: &usize| information[(steps[*level], steps[*level])] > SEEN * projected.raw[steps[*level]];
-    let best = (0..LEVELS).filter(seen).max_by(|&a, &b| explained.steps[a].total_cmp(&explained.steps[b]))?;
-    (explained.steps[best] >= explained.wave).then(|| level_dn(best))
+    let seen = |&level: &usize| {
+        let step = steps[level];
+        information[(step, step)] > VISIBLE * projected.raw[step]
+    };
+    let step = |&level: &usize| explained.steps[level];
+    let best = (0..LEVELS).filter(seen).max_by(|a, b| step(a).total_cmp(&step(b)))?;
+    let is_it = step(&best) >= explained.wave && explained.beside[best] < BESIDE * explained.wave;
+    is_it.then(|| level_dn(best))
 }
 
-/// Of a step's information so much is left where the pixels' own numbers do not say the same.
-const SEEN: f64 = 1e-6;
-
-/// What each explains where the others are not.
+/// What each explains.
 struct Explained {
+    /// The wave, where no step is.
     wave: f64,
+    /// Each step, where the wave is not.
     steps: Vec<f64>,
+    /// The wave beside each step.
+    beside: Vec<f64>,
 }
 
-/// From information and score at a fit that has a wave of these parts: chi squared that the wave, and in its place each step, explains.
+/// From information and score at a fit that has a wave of these parts: chi squared that the wave, as it is but for its size, and in its place or beside it each
+/// step, explains.
 fn alone(
     information: &DMatrix<f64>,
     score: &DVector<f64>,
@@ -68,14 +79,17 @@ fn alone(
     let with_wave = |column: usize| -> f64 {
         parts.iter().zip(wave.iter()).map(|(&part, size)| information[(column, part)] * size).sum()
     };
+    let of_wave: f64 = parts.iter().zip(wave.iter()).map(|(&part, size)| size * with_wave(part)).sum();
     let of_step = |&step: &usize| {
-        let of = information[(step, step)];
-        if of > 0.0 { (score[step] + with_wave(step)).powi(2) / of } else { 0.0 }
+        let (of, shared) = (information[(step, step)], with_wave(step));
+        let score = score[step] + shared;
+        let own = of_wave - shared * shared / of;
+        let is_own = of > 0.0 && own > VISIBLE * of_wave;
+        let beside = if is_own { (of_wave - shared * score / of).powi(2) / own } else { 0.0 };
+        (if of > 0.0 { score * score / of } else { 0.0 }, beside)
     };
-    Explained {
-        wave: parts.iter().zip(wave.iter()).map(|(&part, size)| size * with_wave(part)).sum(),
-        steps: steps.iter().map(of_step).collect(),
-    }
+    let (steps, beside) = steps.iter().map(of_step).unzip();
+    Explained { wave: of_wave, steps, beside }
 }
 
 #[cfg(test)]
@@ -104,8 +118,11 @@ mod tests {
         let explained = alone(&design.tr_mul(&design), &design.tr_mul(&left), (&[0, 1], &fitted), &[2, 3]);
         let is = |a: f64, b: f64| (a - b).abs() < 1e-9;
         assert!(is(explained.wave, taken(&wave)));
-        for (step, column) in explained.steps.iter().zip([2, 3]) {
-            assert!(is(*step, taken(&design.columns(column, 1).into_owned())));
+        for (number, column) in [2, 3].into_iter().enumerate() {
+            let step = design.columns(column, 1).into_owned();
+            assert!(is(explained.steps[number], taken(&step)));
+            let with_wave = DMatrix::from_columns(&[step.column(0).into_owned(), &wave * &fitted]);
+            assert!(is(explained.beside[number], taken(&with_wave) - taken(&step)));
         }
     }
 }

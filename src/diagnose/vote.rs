@@ -21,7 +21,7 @@ pub struct Names {
     count: usize,
     /// Evidence, nats.
     ln_bayes: f64,
-    /// By how many numbers they do, but for shapes.
+    /// How many numbers they have, but for shapes.
     numbers: usize,
     /// Chi squared that they would explain if their forms were exact, and by how many numbers, shapes among them.
     at_most: (f64, usize),
