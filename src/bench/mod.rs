@@ -19,6 +19,6 @@ pub use camera::{chain, practice_camera, sensor};
 pub use course::{Course, moments};
 pub use injection::{camera_effects, included_without, injection};
 pub use plan::Plan;
-pub use recorded::{number_of, recorded};
+pub use recorded::{number_of, recorded, taken};
 pub use simulation::{Simulation, simulate};
 pub use word_length::{injection_for, specification_of};

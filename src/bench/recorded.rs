@@ -1,11 +1,14 @@
 //! A simulated recording, as it would be read.
 
+use super::camera::{chain, sensor};
 use super::course::Course;
 use super::plan::Plan;
 use super::simulation::{Simulation, simulate};
+use crate::physics::{Active, Stage};
 use crate::problem::Result;
 use crate::recording::{Camera, Recording};
 use std::path::Path;
+use std::sync::Arc;
 
 /// The recording called `name` (of [`Plan::names`]) in the folder of a `campaign`, with the frames of `simulation`, whose recording number is
 /// that of the name. `tell` hears of every set that is done.
@@ -35,6 +38,24 @@ pub fn recorded(
         frame_times_s: course.frame_times_s.clone(),
         camera: Some(camera.clone()),
     })
+}
+
+/// The recordings called `names` (of [`Plan::names`]) that `camera` takes of the usual bench, with `effects` that it does not tell, and with noise, all drawn by
+/// the seed of `plan`.
+///
+/// # Errors
+/// As [`Plan::course`] and [`simulate`].
+pub fn taken(camera: &Camera, plan: &Plan, effects: &[Active], names: &[&str]) -> Result<Vec<Recording>> {
+    let sensor = sensor(camera);
+    let pixels = Arc::new(Stage::bench().pixels(&sensor, plan.seed));
+    let chain = chain(camera, pixels, effects.to_vec());
+    let take = |name: &&str| {
+        let recording = number_of(name);
+        let simulation =
+            Simulation { chain: &chain, sensor: &sensor, noise: true, seed: plan.seed, recording };
+        recorded(Path::new("simulated"), name, plan, &plan.course(name)?, camera, &simulation, &|| ())
+    };
+    names.iter().map(take).collect()
 }
 
 /// The number of the recording called `name`: the same recording has the same noise, whichever others are taken.

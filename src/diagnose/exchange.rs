@@ -1,7 +1,7 @@
 //! Whether of several effects one is what a simpler one does: alone, beside what was not fitted yet, it may have needed more numbers than it needs now.
 
 use super::data::Data;
-use super::fit::{Fit, fit};
+use super::fit::{Fit, fit_below};
 use super::noise::Noise;
 use super::pass::{DISBELIEF, Pass, RIVAL_NATS, SIMPLER_SHARE};
 use super::pieces::{Candidate, tolerance};
@@ -23,9 +23,15 @@ pub fn exchange(
     for number in 0..named.len() {
         let Named { name: old, score: (explained, _), .. } = named[number];
         let others = current.pieces.iter().filter(|piece| piece.effect.name != old);
+        // What the others' forms leave more numbers may say, or the form of either leaves.
+        let of_others = tolerated(named) - tolerance(old) * explained;
+        let allowed = |block: usize| {
+            let own = tolerance(first.name(block, candidates)).min(tolerance(old));
+            0.5 * undescribed * of_others.min(DISBELIEF * own * explained)
+        };
         let fitted = |block: usize| {
             let pieces = others.clone().cloned().chain(first.pieces(&[block], candidates)).collect();
-            (block, fit(data, Some(current), pieces, noise, &|_| true))
+            (block, fit_below(data, current, pieces, noise, current.cost() + allowed(block)))
         };
         let is_simpler = |(_, fitted): &(usize, Fit)| {
             fitted.cost().is_finite() && fitted.columns.len() < current.columns.len()
@@ -33,10 +39,7 @@ pub fn exchange(
         let fits = simpler(first, candidates, named, number).into_iter().map(fitted).filter(is_simpler);
         let Some((block, fitted)) = fits.min_by(|a, b| a.1.cost().total_cmp(&b.1.cost())) else { continue };
         let (name, worse) = (first.name(block, candidates), fitted.cost() - current.cost());
-        // What the others' forms leave more numbers may say, or the form of either leaves.
-        let of_others = tolerated(named) - tolerance(old) * explained;
-        let of_own = DISBELIEF * tolerance(name).min(tolerance(old)) * explained;
-        if worse < 0.5 * undescribed * of_others.min(of_own) {
+        if worse < allowed(block) {
             let less = fitted.chi2 - current.chi2;
             let named = &mut named[number];
             named.name = name;
@@ -81,14 +84,12 @@ fn simpler(first: &Pass, candidates: &[Candidate], named: &[Named], number: usiz
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
-    use crate::diagnose::fit::unfitted;
-    use crate::diagnose::pieces::candidates;
+    use crate::bench::{Plan, injection, practice_camera, taken};
+    use crate::diagnose::fit::{fit, unfitted};
+    use crate::diagnose::pieces::{Piece, candidates};
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
-    use crate::physics::{FREQUENCY_HZ, Stage};
-    use std::path::Path;
-    use std::sync::Arc;
+    use crate::physics::FREQUENCY_HZ;
 
     const SEED: u64 = 5;
     const ERRORS: &str = "phase_step_errors";
@@ -98,20 +99,12 @@ mod tests {
     /// A rail of four and of five frames, in which a wall adds to the light, beside effects of the steps.
     fn campaign(steps: &[&str]) -> Data {
         let camera = practice_camera(Geometry { width: 16, height: 12 });
-        let sensor = sensor(&camera);
         let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: SEED };
-        let bench = Arc::new(Stage::bench().pixels(&sensor, SEED));
-        let effects =
-            [steps, &["multipath_interference:relative_amplitude=0.05,wall_distance_m=1.2"]].concat();
-        let take = |name: &&str| {
-            let effects = effects.iter().map(|text| injection(text).unwrap()).collect();
-            let chain = &chain(&camera, Arc::clone(&bench), effects);
-            let simulation =
-                Simulation { chain, sensor: &sensor, noise: true, seed: SEED, recording: number_of(name) };
-            let course = plan.course(name).unwrap();
-            recorded(Path::new(""), name, &plan, &course, &camera, &simulation, &|| ()).unwrap()
-        };
-        Data::of(&["four-rail", "wdft-rail"].iter().map(take).collect::<Vec<_>>(), Vec::new()).unwrap()
+        let wall = "multipath_interference:relative_amplitude=0.05,wall_distance_m=1.2";
+        let effects: Vec<_> =
+            [steps, &[wall]].concat().into_iter().map(|text| injection(text).unwrap()).collect();
+        let recordings = taken(&camera, &plan, &effects, &["four-rail", "wdft-rail"]).unwrap();
+        Data::of(&recordings, Vec::new()).unwrap()
     }
 
     /// What [`exchange`] makes of errors of steps beside the wall, fitted to a [`campaign`]: the names, what comes near the first one, and chi squared
@@ -166,5 +159,27 @@ mod tests {
         let (names, rivals, [before, after]) = exchanged(&[errors]);
         assert_eq!(names, [ERRORS, ECHO]);
         assert!(rivals.is_empty() && before == after, "{rivals:?}");
+    }
+
+    #[test]
+    fn a_fit_that_will_not_come_as_low_is_given_up() {
+        let data = campaign(&[]);
+        let noise = stated_noise(&data);
+        let baseline = unfitted(&data, noise);
+        let candidates = candidates(&data, &baseline.series);
+        let pieces = |name: &str| -> Vec<Piece> {
+            let of = candidates.iter().find(|candidate| candidate.effect.name == name).unwrap();
+            // Of a wall, one that is not far from where it is.
+            of.variants.iter().take(4).last().unwrap().pieces.clone()
+        };
+        let whole = |name| fit(&data, Some(&baseline), pieces(name), noise, &|_| true);
+        let below = |name, most| fit_below(&data, &baseline, pieces(name), noise, most);
+        let wall = whole(ECHO);
+        let most = wall.cost() + 1.0;
+        assert_eq!(below(ECHO, most).cost(), wall.cost());
+        // What a wall does no response does, and that is known before it is fitted.
+        let (all, given_up) = (whole("intensity_nonlinearity"), below("intensity_nonlinearity", most));
+        assert!(all.cost() > most && given_up.cost() > most, "{most} {} {}", all.cost(), given_up.cost());
+        assert!(given_up.unreached > all.unreached, "{} {}", given_up.unreached, all.unreached);
     }
 }

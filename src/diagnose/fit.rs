@@ -61,6 +61,8 @@ const ITERATIONS: usize = 12;
 /// A step that makes the sum of squares so many times greater is damped (Levenberg 1944, Marquardt 1963).
 const WORSE: f64 = 1.01;
 const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
+/// Near the noise all steps that are still to come take away so many times what the next one promises at most.
+const HOPE: f64 = 3.0;
 
 /// Where the sum of squares is so many times the samples, the mismatch is far above the noise: the pixels' own numbers are settled before a
 /// step is judged.
@@ -118,10 +120,16 @@ pub fn fit(
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> Fit {
     let pixels = from.map_or_else(|| start(data, noise, counts), |fit| Arc::clone(&fit.pixels));
-    fit_from(data, pixels, pieces, noise, counts, ENOUGH)
+    fit_from(data, pixels, pieces, noise, counts, End { enough: ENOUGH, most: f64::INFINITY })
 }
 
-/// The same from the pixels of `from` on, until a further step would take away less than `enough`.
+/// The same from the pixels of `from` on, to all sets, given up where its [cost](Fit::cost) will clearly stay beyond `most`: what comes then costs more than
+/// that, and no more is known of it.
+pub fn fit_below(data: &Data, from: &Fit, pieces: Vec<Piece>, noise: Noise, most: f64) -> Fit {
+    fit_from(data, Arc::clone(&from.pixels), pieces, noise, &|_| true, End { enough: ENOUGH, most })
+}
+
+/// The same from the pixels of `from` on, to the sets of which `counts` is true, until a further step would take away less than `enough`.
 pub fn fit_until(
     data: &Data,
     from: &Fit,
@@ -130,7 +138,17 @@ pub fn fit_until(
     counts: &(dyn Fn(usize) -> bool + Sync),
     enough: f64,
 ) -> Fit {
-    fit_from(data, Arc::clone(&from.pixels), pieces, noise, counts, enough)
+    let end = End { enough, most: f64::INFINITY };
+    fit_from(data, Arc::clone(&from.pixels), pieces, noise, counts, end)
+}
+
+/// Where a fit ends.
+#[derive(Clone, Copy)]
+struct End {
+    /// A further step would take away less.
+    enough: f64,
+    /// It will cost more than so many nats.
+    most: f64,
 }
 
 fn fit_from(
@@ -139,14 +157,16 @@ fn fit_from(
     pieces: Vec<Piece>,
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
-    enough: f64,
+    End { enough, most }: End,
 ) -> Fit {
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
     let round = Round::new(data, &pixels, &pieces, noise, counts);
-    let start = Model { pixels, pieces, round, is_stuck: false };
+    let start = Model { pixels, pieces, round, is_first: true, is_stuck: false };
     let step = |here: &Model, may_climb: bool| {
-        let is_there = here.is_stuck || here.round.gain < enough;
+        // Shapes are fitted from the second step on only, and far from the data steps promise too little.
+        let is_hopeless = !here.is_first && !here.round.is_far() && here.round.hoped() > most;
+        let is_there = here.is_stuck || is_hopeless || here.round.gain < enough;
         if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
     };
     descend(start, ITERATIONS, enough, &step, &|model| model.round.left()).end()
@@ -157,6 +177,8 @@ struct Model {
     pixels: Arc<Pixels>,
     pieces: Vec<Piece>,
     round: Round,
+    /// Where the fit began.
+    is_first: bool,
     /// Far from any minimum, what hardly moves will not come there.
     is_stuck: bool,
 }
@@ -183,7 +205,7 @@ impl Model {
             };
             let is_slow = round.square > (1.0 - SLOW) * self.round.square;
             let is_stuck = is_slow && round.is_far();
-            is_taken.then_some(Self { pixels, pieces, round, is_stuck })
+            is_taken.then_some(Self { pixels, pieces, round, is_first: false, is_stuck })
         })
     }
 
@@ -248,6 +270,11 @@ impl Round {
     /// What is left before the step, with the sets' common position errors taken out: what a step promises to take away need not go.
     fn left(&self) -> f64 {
         self.projected.chi2 + self.projected.settled
+    }
+
+    /// What the fit will cost, nats, if steps take away more than they promise.
+    fn hoped(&self) -> f64 {
+        0.5 * (self.left() - HOPE * self.gain) + self.columns.len() as f64
     }
 
     /// `pixels` and `pieces`, moved by the step with so much `damping`.

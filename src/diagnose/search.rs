@@ -5,7 +5,7 @@ use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
 use super::exchange::exchange;
-use super::fit::{Fit, fit};
+use super::fit::{Fit, fit, fit_below};
 use super::lines::FLICKER;
 use super::noise::Noise;
 use super::pass::{DISBELIEF, Detectable, Pass, RIVAL_NATS, THRESHOLD};
@@ -219,8 +219,9 @@ impl<'a> Search<'a> {
         if named.iter().all(|name| came(&name)) {
             return false;
         }
-        let fitted = fit(self.data, Some(&self.baseline), pieces, self.noise, &|_| true);
-        let is_better = fitted.cost() + RIVAL_NATS < self.current.cost();
+        let enough = self.current.cost() - RIVAL_NATS;
+        let fitted = fit_below(self.data, &self.baseline, pieces, self.noise, enough);
+        let is_better = fitted.cost() < enough;
         if is_better {
             // Neither explains more than both.
             let gain = self.baseline.chi2 - fitted.chi2;
@@ -351,8 +352,11 @@ fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<N
             let name = named[number].name;
             let pieces: Vec<Piece> =
                 current.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
-            let left = fit(data, Some(current), pieces, noise, &|_| true);
-            let needed = 0.5 * (left.left() - current.chi2) - named[number].score.1 as f64;
+            let numbers = named[number].score.1 as f64;
+            let fitted: usize = pieces.iter().map(|piece| piece.free.len()).sum();
+            let most = 0.5 * current.chi2 + NEEDED_NATS + numbers + fitted as f64;
+            let left = fit_below(data, current, pieces, noise, most);
+            let needed = 0.5 * (left.left() - current.chi2) - numbers;
             (number, needed, left)
         };
         // Of two that are needed as little, the later one.

@@ -167,26 +167,17 @@ fn median(values: &mut [f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
+    use crate::bench::{Plan, injection, practice_camera, taken};
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
-    use crate::physics::{FREQUENCY_HZ, Stage};
-    use std::path::Path;
-    use std::sync::Arc;
+    use crate::physics::FREQUENCY_HZ;
 
     /// A rail with an `effect`.
     fn rail(effect: &str) -> Data {
         let camera = practice_camera(Geometry { width: 16, height: 12 });
-        let sensor = sensor(&camera);
         let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: 2 };
-        let bench = Arc::new(Stage::bench().pixels(&sensor, 2));
-        let chain = chain(&camera, bench, vec![injection(effect).unwrap()]);
-        let name = "four-rail";
-        let simulation =
-            Simulation { chain: &chain, sensor: &sensor, noise: true, seed: 2, recording: number_of(name) };
-        let course = plan.course(name).unwrap();
-        let take = recorded(Path::new(""), name, &plan, &course, &camera, &simulation, &|| ()).unwrap();
-        Data::of(&[take], Vec::new()).unwrap()
+        let recordings = taken(&camera, &plan, &[injection(effect).unwrap()], &["four-rail"]).unwrap();
+        Data::of(&recordings, Vec::new()).unwrap()
     }
 
     #[test]

@@ -1,12 +1,10 @@
 //! One campaign: made, diagnosed, judged.
 
-use crate::bench::{Plan, Simulation, chain, number_of, practice_camera, recorded, sensor};
+use crate::bench::{Plan, practice_camera, taken};
 use crate::diagnose::{Data, diagnose};
 use crate::frames::Geometry;
-use crate::physics::{Active, Effect, FREQUENCY_HZ, Stage};
+use crate::physics::{Active, Effect, FREQUENCY_HZ};
 use crate::problem::Result;
-use std::path::Path;
-use std::sync::Arc;
 
 /// An effect in a campaign.
 #[derive(Debug, Clone)]
@@ -60,21 +58,11 @@ impl Case {
 
     /// The campaign; with `library` among what a diagnosis knows.
     fn data(&self, size: Geometry, library: Vec<&'static Effect>) -> Result<Data> {
-        let camera = practice_camera(size);
-        let sensor = sensor(&camera);
         let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: FRAME_PERIOD_S, seed: self.seed };
-        let pixels = Arc::new(Stage::bench().pixels(&sensor, self.seed));
         let active =
             |concealed: &Concealed| Active { effect: concealed.effect, values: concealed.values.clone() };
-        let effects = self.effects.iter().map(active);
-        let chain = chain(&camera, pixels, effects.collect());
-        let take = |name: &&str| {
-            let recording = number_of(name);
-            let simulation =
-                Simulation { chain: &chain, sensor: &sensor, noise: true, seed: self.seed, recording };
-            recorded(Path::new("study"), name, &plan, &plan.course(name)?, &camera, &simulation, &|| ())
-        };
-        let recordings = RECORDINGS.iter().map(take).collect::<Result<Vec<_>>>()?;
+        let effects: Vec<Active> = self.effects.iter().map(active).collect();
+        let recordings = taken(&practice_camera(size), &plan, &effects, &RECORDINGS)?;
         Data::of(&recordings, library)
     }
 
