@@ -170,7 +170,7 @@ mod tests {
         let pieces = |name: &str| -> Vec<Piece> {
             let of = candidates.iter().find(|candidate| candidate.effect.name == name).unwrap();
             // Of a wall, one that is not far from where it is.
-            of.variants.iter().take(4).last().unwrap().pieces.clone()
+            of.variants[3.min(of.variants.len() - 1)].pieces.clone()
         };
         let whole = |name| fit(&data, Some(&baseline), pieces(name), noise, &|_| true);
         let below = |name, most| fit_below(&data, &baseline, pieces(name), noise, most);

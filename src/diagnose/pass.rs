@@ -3,11 +3,12 @@
 use super::alone::Alone;
 use super::columns::Tangents;
 use super::data::Data;
-use super::evidence::{Block, Evidence, Model, is_seen, powerful_rho};
+use super::evidence::{Block, Evidence, Model};
 use super::fit::Fit;
 use super::gram::Gram;
 use super::noise::Noise;
 use super::pieces::{Candidate, Piece, tolerance};
+use super::power::{Detectable, detectable};
 use super::random::of_name;
 use super::simpler::Simpler;
 use super::tried::Tried;
@@ -39,19 +40,6 @@ pub const DISBELIEF: f64 = 3.0;
 pub const THRESHOLD: f64 = 1.0;
 /// The same for an effect beside others: a second name is less trustworthy than the first.
 const FURTHER_THRESHOLD: f64 = 4.0;
-
-/// What the recordings would show of an effect, in the way in which it shows best.
-#[derive(Debug, Clone, Copy)]
-pub struct Detectable {
-    /// The effect.
-    pub name: &'static str,
-    /// Its parameter.
-    pub parameter: usize,
-    /// Standard deviation of that, by the noise alone.
-    pub sigma: f64,
-    /// Strength at which the effect is found in 95 of 100 campaigns like this one.
-    pub value: f64,
-}
 
 /// What one pass says of all candidates.
 #[derive(Debug, Clone, Default)]
@@ -104,27 +92,11 @@ impl Pass {
         };
         let invisible =
             (0..candidates.len()).filter(unseen).map(|number| candidates[number].effect.name).collect();
-        let mut detectable: Vec<Detectable> = Vec::new();
-        let mut powerful = BTreeMap::<(usize, u64), f64>::new();
         // What is asked of the recordings as they are.
-        for (block, score) in blocks.iter().zip(&scores).filter(|_| base.columns.is_empty()) {
-            let Some((_, numbers)) = *score else { continue };
-            let rho = || powerful_rho(numbers, block.variants, candidates.len(), THRESHOLD);
-            let rho = *powerful.entry((numbers, block.variants.to_bits())).or_insert_with(rho);
-            for &column in &block.columns {
-                let (number, parameter) = parameters[column];
-                let information = projected.matrix[(column, column)];
-                if !is_seen(information, projected.raw[column], reach(column)) {
-                    continue;
-                }
-                let (name, sigma) = (candidates[number].effect.name, information.sqrt().recip());
-                let value = rho * sigma;
-                match detectable.iter_mut().find(|row| row.name == name && row.parameter == parameter) {
-                    Some(row) => (row.sigma, row.value) = (row.sigma.min(sigma), row.value.min(value)),
-                    None => detectable.push(Detectable { name, parameter, sigma, value }),
-                }
-            }
-        }
+        let detectable = match base.columns.is_empty() {
+            true => detectable(&projected, &parameters, &reach, &blocks, &scores, candidates),
+            false => Vec::new(),
+        };
         let singles = (0..blocks.len()).map(|block| evidence.ln_bayes(&[block])).collect();
         let name = |block: &Block| candidates[block.candidate].effect.name;
         let simpler = || Simpler::of(&evidence, &blocks, gram.samples, &name);

@@ -8,8 +8,9 @@ use super::exchange::exchange;
 use super::fit::{Fit, fit, fit_below};
 use super::lines::FLICKER;
 use super::noise::Noise;
-use super::pass::{DISBELIEF, Detectable, Pass, RIVAL_NATS, THRESHOLD};
+use super::pass::{DISBELIEF, Pass, RIVAL_NATS, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
+use super::power::Detectable;
 use super::simpler::Simpler;
 use std::collections::BTreeSet;
 
