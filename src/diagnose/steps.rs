@@ -82,11 +82,14 @@ fn alone(
     let of_wave: f64 = parts.iter().zip(wave.iter()).map(|(&part, size)| size * with_wave(part)).sum();
     let of_step = |&step: &usize| {
         let (of, shared) = (information[(step, step)], with_wave(step));
+        if of <= 0.0 {
+            return (0.0, 0.0);
+        }
         let score = score[step] + shared;
         let own = of_wave - shared * shared / of;
-        let is_own = of > 0.0 && own > VISIBLE * of_wave;
-        let beside = if is_own { (of_wave - shared * score / of).powi(2) / own } else { 0.0 };
-        (if of > 0.0 { score * score / of } else { 0.0 }, beside)
+        let beside =
+            if own > VISIBLE * of_wave { (of_wave - shared * score / of).powi(2) / own } else { 0.0 };
+        (score * score / of, beside)
     };
     let (steps, beside) = steps.iter().map(of_step).unzip();
     Explained { wave: of_wave, steps, beside }

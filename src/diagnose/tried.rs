@@ -14,17 +14,17 @@ pub struct Tried {
 }
 
 impl Tried {
-    /// All of the `candidates` of which none of the `fitted` pieces is, which have so many `columns`. What two ways of a candidate have in common is one
+    /// All of the `candidates` of which none of the `fitted` pieces is, which have so many columns. What two ways of a candidate have in common is one
     /// column.
-    pub fn beside(fitted: &[Piece], columns: usize, candidates: &[Candidate]) -> Self {
-        let parameters = vec![(usize::MAX, 0); columns];
+    pub fn beside(fitted: &[Piece], fitted_columns: usize, candidates: &[Candidate]) -> Self {
+        let parameters = vec![(usize::MAX, 0); fitted_columns];
         let mut tried = Self { pieces: Vec::new(), blocks: Vec::new(), parameters };
         let is_fitted = |of: &Candidate| fitted.iter().any(|piece| piece.effect.name == of.effect.name);
         for (number, candidate) in candidates.iter().enumerate().filter(|(_, of)| !is_fitted(of)) {
             let mut own = Vec::new();
             for (variant, of) in candidate.variants.iter().enumerate() {
                 let columns =
-                    of.pieces.iter().flat_map(|piece| tried.columns(number, piece, &mut own)).collect();
+                    of.pieces.iter().flat_map(|piece| tried.columns_of(number, piece, &mut own)).collect();
                 let variants = candidate.looked * of.rarity;
                 tried.blocks.push(Block { candidate: number, variant, variants, columns });
             }
@@ -33,7 +33,7 @@ impl Tried {
     }
 
     /// The columns of a `piece` of the candidate `number`, which has its `own` ones already: pieces, parameters, and their columns.
-    fn columns<'a>(
+    fn columns_of<'a>(
         &mut self,
         number: usize,
         piece: &'a Piece,
@@ -43,10 +43,10 @@ impl Tried {
             let mut of = own.iter().filter(|(other, number, _)| *number == parameter && other.acts_as(piece));
             of.next().map(|&(.., column)| column)
         };
-        let columns: Vec<(usize, Option<usize>)> =
+        let numbers: Vec<(usize, Option<usize>)> =
             piece.free.iter().map(|&parameter| (parameter, known(parameter))).collect();
         let is_new = |&(parameter, column): &(usize, Option<usize>)| column.is_none().then_some(parameter);
-        let free: Vec<usize> = columns.iter().filter_map(is_new).collect();
+        let free: Vec<usize> = numbers.iter().filter_map(is_new).collect();
         if !free.is_empty() {
             self.pieces.push(Piece { free, ..piece.clone() });
         }
@@ -58,7 +58,7 @@ impl Tried {
                 column
             })
         };
-        columns.into_iter().map(column).collect()
+        numbers.into_iter().map(column).collect()
     }
 }
 

@@ -41,8 +41,8 @@ pub struct Outcome {
     pub possible: Vec<String>,
     /// The coordinate that leads.
     pub located: Option<&'static str>,
-    /// Errors of the numbers that are not off, in the standard deviations that were stated; of effects that were named.
-    pub errors_sigma: Vec<f64>,
+    /// Errors of the numbers that are not off, in the standard deviations that were stated, of effects that were named.
+    pub errors_sigma: Vec<(&'static str, f64)>,
 }
 
 /// Recordings of a campaign.
@@ -96,7 +96,8 @@ impl Case {
             let Concealed { effect, number, values } = concealed;
             let row = answer.effects.iter().find(|row| row.name == effect.name)?;
             let parameter = row.parameters.iter().find(|row| row.name == effect.parameters[*number].name)?;
-            (parameter.sigma > 0.0).then(|| (parameter.value - values[*number]) / parameter.sigma)
+            (parameter.sigma > 0.0)
+                .then(|| (effect.name, (parameter.value - values[*number]) / parameter.sigma))
         };
         Ok(Outcome {
             verdict: answer.verdict,

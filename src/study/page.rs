@@ -50,6 +50,16 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
         100.0 * low,
         100.0 * high
     );
+    let off = |(name, tenths, error): &(&str, u32, f64)| {
+        format!(" {name} at rho {}: {error:+.1}.", f64::from(*tenths) / 10.0)
+    };
+    if !summary.off.is_empty() {
+        let all: String = summary.off.iter().map(off).collect();
+        let _ = writeln!(
+            text,
+            "Those that do not, and by how many standard deviations the number is off:{all}\n"
+        );
+    }
     text += "Right: the effects were named, and no other; of an unknown one: none was, and a coordinate where it lives led. Possible: others were, and what was \
              said to be\npossible too completes them. Part: one of two, and no other. Silent: no alarm. Unexplained: an alarm and no name; of an unknown effect: \
              in another place.\n\n";

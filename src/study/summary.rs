@@ -49,6 +49,8 @@ pub struct Summary {
     pub cells: BTreeMap<(Kind, String, u32), Cell>,
     /// Numbers whose 95 % interval was stated, those that lie within, and those within three standard deviations.
     pub intervals: (usize, usize, usize),
+    /// Those that lie outside: the effect, the strength (in tenths of a standard deviation), and by how many standard deviations its number is off.
+    pub off: Vec<(&'static str, u32, f64)>,
     /// What was named in place of what: `(effects, named)`, and how often.
     pub confused: BTreeMap<(String, String), usize>,
 }
@@ -82,10 +84,14 @@ impl Summary {
             if is_other {
                 *summary.confused.entry((names.join(" + "), outcome.named.join(" + "))).or_default() += 1;
             }
-            for error in &outcome.errors_sigma {
+            for &(name, error) in &outcome.errors_sigma {
+                let is_within = error.abs() < INTERVAL_SIGMAS;
                 summary.intervals.0 += 1;
-                summary.intervals.1 += usize::from(error.abs() < INTERVAL_SIGMAS);
+                summary.intervals.1 += usize::from(is_within);
                 summary.intervals.2 += usize::from(error.abs() < 3.0);
+                if !is_within {
+                    summary.off.push((name, tenths(case.rho), error));
+                }
             }
         }
         summary
@@ -167,7 +173,7 @@ mod tests {
             named: named.to_vec(),
             possible: possible.iter().map(|name| (*name).to_owned()).collect(),
             located: Some("set"),
-            errors_sigma: errors_sigma.to_vec(),
+            errors_sigma: errors_sigma.iter().map(|&error| ("image_lag", error)).collect(),
         };
         let outcomes = [
             (&lag, outcome("explained", &["image_lag"], &[], &[1.0])),
@@ -195,6 +201,7 @@ mod tests {
         assert_eq!(summary.at(Kind::Pair, 10.0), Cell { right: 1, possible: 1, part: 1, wrong: 1, ..none });
         assert_eq!(summary.at(Kind::Unknown, 10.0), Cell { right: 1, unexplained: 1, wrong: 1, ..none });
         assert_eq!(summary.intervals, (5, 3, 5));
+        assert_eq!(summary.off, [("image_lag", 100, -2.5), ("image_lag", 100, 2.0)]);
         let (of, named) = ("image_lag".to_owned(), "saturation".to_owned());
         assert_eq!(summary.confused.get(&(of, named)), Some(&2));
     }

@@ -1,6 +1,6 @@
 //! The pixel's response is not linear in the light.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, power};
 
 /// Quadratic and cubic part, relative to the linear one at full scale; and by how much the exponent of a response that is a power of the
 /// light differs from 1 (the gamma of cameras and projectors: 2.2 is 1.2).
@@ -24,13 +24,23 @@ const UNMOVED: f64 = 0.25;
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let full_scale_dn = exposure.pixels.full_scale_dn;
-    let exponent = values[2];
-    for signal in &mut exposure.signal_dn {
-        // No light is no light by any power.
-        if exponent != 0.0 && *signal > 0.0 {
-            *signal *= libm::pow(*signal / (UNMOVED * full_scale_dn), exponent);
-        }
-        let share = *signal / full_scale_dn;
-        *signal += *signal * share * (values[0] + values[1] * share);
+    let (quadratic, cubic, exponent) = (values[0], values[1], values[2]);
+    // With the widest registers that the machine has.
+    let arch = pulp::Arch::new();
+    if exponent != 0.0 {
+        let unmoved_dn = UNMOVED * full_scale_dn;
+        arch.dispatch(|| {
+            for signal in &mut exposure.signal_dn {
+                // No light is no light by any power.
+                let level = if *signal > 0.0 { *signal / unmoved_dn } else { 1.0 };
+                *signal *= power(level, exponent);
+            }
+        });
     }
+    arch.dispatch(|| {
+        for signal in &mut exposure.signal_dn {
+            let share = *signal / full_scale_dn;
+            *signal += *signal * share * (quadratic + cubic * share);
+        }
+    });
 }

@@ -1,6 +1,6 @@
 //! A phase that depends on the amplitude.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, ln, power};
 
 /// Phase a factor of e in amplitude, at the reference; in proportion to the logarithm of the amplitude (0), to the amplitude itself (1), or to one
 /// over it (-1) or its root (-0.5).
@@ -22,16 +22,14 @@ pub static EFFECT: Effect = Effect {
 const REFERENCE_DN: f64 = 300.0;
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let exponent = values[1];
-    for (phase, &amplitude) in exposure.phase_rad.iter_mut().zip(&exposure.amplitude_dn) {
-        if amplitude > 0.0 {
-            let level = amplitude / REFERENCE_DN;
-            let power = if exponent == 0.0 {
-                libm::log(level)
-            } else {
-                (libm::pow(level, exponent) - 1.0) / exponent
-            };
-            *phase += values[0] * power;
+    let (rad, exponent) = (values[0], values[1]);
+    let moved = exposure.phase_rad.iter_mut().zip(&exposure.amplitude_dn);
+    // With the widest registers that the machine has. No amplitude has no phase that could move.
+    pulp::Arch::new().dispatch(|| {
+        for (phase, &amplitude) in moved {
+            let level = if amplitude > 0.0 { amplitude / REFERENCE_DN } else { 1.0 };
+            let moved = if exponent == 0.0 { ln(level) } else { (power(level, exponent) - 1.0) / exponent };
+            *phase += rad * moved;
         }
-    }
+    });
 }
