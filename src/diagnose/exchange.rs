@@ -33,13 +33,13 @@ pub fn exchange(
             let pieces = others.clone().cloned().chain(first.pieces(&[block], candidates)).collect();
             (block, fit_below(data, current, pieces, noise, current.cost() + allowed(block)))
         };
-        let is_simpler = |(_, fitted): &(usize, Fit)| {
-            fitted.cost().is_finite() && fitted.columns.len() < current.columns.len()
+        // What was given up is not chosen from, and neither is what is no number.
+        let is_simpler = |(block, fitted): &(usize, Fit)| {
+            fitted.cost() < current.cost() + allowed(*block) && fitted.columns.len() < current.columns.len()
         };
         let fits = simpler(first, candidates, named, number).into_iter().map(fitted).filter(is_simpler);
-        let Some((block, fitted)) = fits.min_by(|a, b| a.1.cost().total_cmp(&b.1.cost())) else { continue };
-        let (name, worse) = (first.name(block, candidates), fitted.cost() - current.cost());
-        if worse < allowed(block) {
+        if let Some((block, fitted)) = fits.min_by(|a, b| a.1.cost().total_cmp(&b.1.cost())) {
+            let (name, worse) = (first.name(block, candidates), fitted.cost() - current.cost());
             let less = fitted.chi2 - current.chi2;
             let named = &mut named[number];
             named.name = name;

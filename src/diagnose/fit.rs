@@ -61,7 +61,7 @@ const ITERATIONS: usize = 12;
 /// A step that makes the sum of squares so many times greater is damped (Levenberg 1944, Marquardt 1963).
 const WORSE: f64 = 1.01;
 const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
-/// Near the noise all steps that are still to come take away so many times what the next one promises at most.
+/// Near the noise all steps that are still to come are taken to lower chi squared by so many times what the next one promises at most.
 const HOPE: f64 = 3.0;
 
 /// Where the sum of squares is so many times the samples, the mismatch is far above the noise: the pixels' own numbers are settled before a
@@ -162,10 +162,10 @@ fn fit_from(
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
     let round = Round::new(data, &pixels, &pieces, noise, counts);
-    let start = Model { pixels, pieces, round, is_first: true, is_stuck: false };
+    let start = Model { pixels, pieces, round, came_down: false, is_stuck: false };
     let step = |here: &Model, may_climb: bool| {
-        // Shapes are fitted from the second step on only, and far from the data steps promise too little.
-        let is_hopeless = !here.is_first && !here.round.is_far() && here.round.hoped() > most;
+        // Shapes are fitted from the second step on only, on a hill nothing is known of the valley behind it, and far from the data steps promise too little.
+        let is_hopeless = here.came_down && !here.round.is_far() && here.round.hoped() > most;
         let is_there = here.is_stuck || is_hopeless || here.round.gain < enough;
         if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
     };
@@ -177,8 +177,8 @@ struct Model {
     pixels: Arc<Pixels>,
     pieces: Vec<Piece>,
     round: Round,
-    /// Where the fit began.
-    is_first: bool,
+    /// The step to it led downhill; not where the fit began.
+    came_down: bool,
     /// Far from any minimum, what hardly moves will not come there.
     is_stuck: bool,
 }
@@ -205,7 +205,8 @@ impl Model {
             };
             let is_slow = round.square > (1.0 - SLOW) * self.round.square;
             let is_stuck = is_slow && round.is_far();
-            is_taken.then_some(Self { pixels, pieces, round, is_first: false, is_stuck })
+            let came_down = round.left() <= self.round.left();
+            is_taken.then_some(Self { pixels, pieces, round, came_down, is_stuck })
         })
     }
 

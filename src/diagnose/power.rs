@@ -13,14 +13,14 @@ pub struct Detectable {
     pub name: &'static str,
     /// Its parameter.
     pub parameter: usize,
-    /// Standard deviation of that, by the noise alone.
-    pub sigma: f64,
+    /// Standard deviation of that, by the noise alone; none where the effect begins with a corner, below which it does nothing.
+    pub sigma: Option<f64>,
     /// Strength at which the effect is found in 95 of 100 campaigns like this one.
     pub value: f64,
 }
 
-/// Another choice than the usual one is less usual than any other shape.
-const OTHER_CHOICE: f64 = 1e3;
+/// Another choice than the usual one is less usual than any other shape, and so is what has no ratio to it.
+const OTHER: f64 = 1e3;
 
 /// Of each number of the `candidates` the smallest strength that would be seen, in the most usual of the `blocks` that show it. Of what is `projected`, each
 /// column has its candidate and the number of its parameter (`parameters`), and a number that may reach so far (`reach`); of each block
@@ -47,20 +47,18 @@ pub fn detectable(
             if !is_seen(information, projected.raw[column], reach(column)) {
                 continue;
             }
-            let mut sigma = information.sqrt().recip();
-            let mut value = rho * sigma;
-            if piece.finite {
-                // Below its corner it does nothing: what was not seen at that value may not be seen at any smaller one.
-                if piece.values[parameter] < value {
-                    continue;
-                }
-                value = piece.values[parameter];
-                sigma = value / rho;
+            let sigma = information.sqrt().recip();
+            let least = rho * sigma;
+            let tried = piece.values[parameter];
+            // Below its corner it does nothing: what is not seen at this value is not at a smaller one.
+            if piece.finite && tried < least {
+                continue;
             }
+            let (sigma, value) = if piece.finite { (None, tried) } else { (Some(sigma), least) };
             let name = piece.effect.name;
             let row = Detectable { name, parameter, sigma, value };
-            match found.iter_mut().find(|(_, known)| known.name == name && known.parameter == parameter) {
-                Some(known) if (how_unusual, value) < (known.0, known.1.value) => *known = (how_unusual, row),
+            match found.iter_mut().find(|(_, found)| found.name == name && found.parameter == parameter) {
+                Some(found) if (how_unusual, value) < (found.0, found.1.value) => *found = (how_unusual, row),
                 Some(_) => {}
                 None => found.push((how_unusual, row)),
             }
@@ -73,12 +71,11 @@ pub fn detectable(
 fn unusual(piece: &Piece) -> f64 {
     let parameters = piece.effect.parameters.iter().zip(&piece.values);
     let of = parameters.filter(|(parameter, _)| parameter.is_shape()).map(|(parameter, &value)| {
-        if parameter.is_choice {
-            if value == parameter.off { 0.0 } else { OTHER_CHOICE }
-        } else if value > 0.0 && parameter.typical > 0.0 {
-            (value / parameter.typical).ln().abs()
-        } else {
-            (value - parameter.typical).abs()
+        let far = (value / parameter.off).ln().abs();
+        match value == parameter.off {
+            true => 0.0,
+            false if parameter.is_choice || !far.is_finite() => OTHER,
+            false => far,
         }
     });
     of.sum()
@@ -110,25 +107,25 @@ mod tests {
         let baseline = unfitted(&clean, noise);
         let candidates = candidates(&clean, &baseline.series);
         let rows = Pass::of(&clean, &baseline, &candidates, noise, 1.0).detectable;
-        // Noise adds two standard deviations of the strength. A line of the encoder is taken for its noise in part, and beyond a corner more is seen than just there.
-        let many = f64::INFINITY;
-        for (name, times, is_seen) in [
-            ("image_lag", 4.0, 0.7..1.4),
-            ("lens_scatter", 4.0, 0.7..1.4),
-            ("encoder_cyclic", 4.0, 0.4..1.4),
-            ("saturation", 1.0, 1.0..many),
-        ] {
-            let row = rows.iter().find(|row| row.name == name).unwrap();
-            let effect = effects::named(name).unwrap();
-            let usual = |parameter: &crate::physics::Parameter| match parameter.is_shape() {
-                true if !parameter.is_choice => parameter.typical,
-                _ => parameter.off,
-            };
-            let mut values: Vec<f64> = effect.parameters.iter().map(usual).collect();
-            values[row.parameter] = times * row.value;
-            let with = unfitted(&campaign(&[Active { effect, values }]), noise);
-            let (seen, promised) = (with.chi2 - baseline.chi2, (times * row.value / row.sigma).powi(2));
+        // Noise adds two standard deviations of the strength. A line of the encoder is taken for its noise in part.
+        let row = |name: &str| rows.iter().find(|row| row.name == name).unwrap();
+        let seen = |name: &str, value: f64| {
+            let (effect, parameter) = (effects::named(name).unwrap(), row(name).parameter);
+            let mut values = effect.off();
+            values[parameter] = value;
+            unfitted(&campaign(&[Active { effect, values }]), noise).chi2 - baseline.chi2
+        };
+        for (name, is_seen) in
+            [("image_lag", 0.7..1.4), ("lens_scatter", 0.7..1.4), ("encoder_cyclic", 0.4..1.4)]
+        {
+            let row = row(name);
+            let value = 4.0 * row.value;
+            let (seen, promised) = (seen(name, value), (value / row.sigma.unwrap()).powi(2));
             assert!(is_seen.contains(&(seen / promised)), "{name} {row:?}: {seen} of {promised}");
         }
+        // A well's corner is found to a step.
+        let well = row("saturation");
+        let (there, before) = (seen(well.name, well.value), seen(well.name, well.value - 0.1));
+        assert!(there > 100.0 && before < 0.1 * there, "{well:?}: {there}, a step before {before}");
     }
 }

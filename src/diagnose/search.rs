@@ -220,9 +220,9 @@ impl<'a> Search<'a> {
         if named.iter().all(|name| came(&name)) {
             return false;
         }
-        let enough = self.current.cost() - RIVAL_NATS;
-        let fitted = fit_below(self.data, &self.baseline, pieces, self.noise, enough);
-        let is_better = fitted.cost() < enough;
+        let most = self.current.cost() - RIVAL_NATS;
+        let fitted = fit_below(self.data, &self.baseline, pieces, self.noise, most);
+        let is_better = fitted.cost() < most;
         if is_better {
             // Neither explains more than both.
             let gain = self.baseline.chi2 - fitted.chi2;
@@ -354,7 +354,9 @@ fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<N
             let pieces: Vec<Piece> =
                 current.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
             let numbers = named[number].score.1 as f64;
-            let fitted: usize = pieces.iter().map(|piece| piece.free.len()).sum();
+            // Of numbers that the fit may have, all.
+            let shapes = |piece: &Piece| piece.effect.parameters.iter().filter(|row| row.is_shape()).count();
+            let fitted: usize = pieces.iter().map(|piece| piece.free.len() + shapes(piece)).sum();
             let most = 0.5 * current.chi2 + NEEDED_NATS + numbers + fitted as f64;
             let left = fit_below(data, current, pieces, noise, most);
             let needed = 0.5 * (left.left() - current.chi2) - numbers;

@@ -35,7 +35,6 @@ pub use exposure::{Before, Exposure, Included, Moment};
 pub use formula::{Formula, Target};
 pub use per_pixel::PerPixel;
 pub use pixels::Pixels;
-pub use powers::{ln, power};
 pub use pulse::Pulse;
 pub use scene::{Object, Scene, Surface};
 pub use sensor::{Light, Sensor};

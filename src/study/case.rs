@@ -41,7 +41,7 @@ pub struct Outcome {
     pub possible: Vec<String>,
     /// The coordinate that leads.
     pub located: Option<&'static str>,
-    /// Errors of the numbers that are not off, in the standard deviations that were stated, of effects that were named.
+    /// Of effects that were named, and are there: the name, and the error of the number that is not off, in the standard deviations that were stated.
     pub errors_sigma: Vec<(&'static str, f64)>,
 }
 
@@ -80,7 +80,7 @@ impl Case {
         let mut units: Vec<(&'static str, usize, f64)> = Vec::new();
         for row in found.detectable {
             if !units.iter().any(|unit| unit.0 == row.name) {
-                units.push((row.name, row.parameter, row.sigma));
+                units.extend(row.sigma.map(|sigma| (row.name, row.parameter, sigma)));
             }
         }
         Ok(units)

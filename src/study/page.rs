@@ -50,11 +50,11 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
         100.0 * low,
         100.0 * high
     );
-    let off = |(name, tenths, error): &(&str, u32, f64)| {
+    let missed = |(name, tenths, error): &(&str, u32, f64)| {
         format!(" {name} at rho {}: {error:+.1}.", f64::from(*tenths) / 10.0)
     };
-    if !summary.off.is_empty() {
-        let all: String = summary.off.iter().map(off).collect();
+    if !summary.missed.is_empty() {
+        let all: String = summary.missed.iter().map(missed).collect();
         let _ = writeln!(
             text,
             "Those that do not, and by how many standard deviations the number is off:{all}\n"

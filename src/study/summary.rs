@@ -50,7 +50,7 @@ pub struct Summary {
     /// Numbers whose 95 % interval was stated, those that lie within, and those within three standard deviations.
     pub intervals: (usize, usize, usize),
     /// Those that lie outside: the effect, the strength (in tenths of a standard deviation), and by how many standard deviations its number is off.
-    pub off: Vec<(&'static str, u32, f64)>,
+    pub missed: Vec<(&'static str, u32, f64)>,
     /// What was named in place of what: `(effects, named)`, and how often.
     pub confused: BTreeMap<(String, String), usize>,
 }
@@ -90,7 +90,7 @@ impl Summary {
                 summary.intervals.1 += usize::from(is_within);
                 summary.intervals.2 += usize::from(error.abs() < 3.0);
                 if !is_within {
-                    summary.off.push((name, tenths(case.rho), error));
+                    summary.missed.push((name, tenths(case.rho), error));
                 }
             }
         }
@@ -201,7 +201,7 @@ mod tests {
         assert_eq!(summary.at(Kind::Pair, 10.0), Cell { right: 1, possible: 1, part: 1, wrong: 1, ..none });
         assert_eq!(summary.at(Kind::Unknown, 10.0), Cell { right: 1, unexplained: 1, wrong: 1, ..none });
         assert_eq!(summary.intervals, (5, 3, 5));
-        assert_eq!(summary.off, [("image_lag", 100, -2.5), ("image_lag", 100, 2.0)]);
+        assert_eq!(summary.missed, [("image_lag", 100, -2.5), ("image_lag", 100, 2.0)]);
         let (of, named) = ("image_lag".to_owned(), "saturation".to_owned());
         assert_eq!(summary.confused.get(&(of, named)), Some(&2));
     }

@@ -1,6 +1,7 @@
 //! The pixel's response is not linear in the light.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, power};
+use crate::physics::powers::power;
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Quadratic and cubic part, relative to the linear one at full scale; and by how much the exponent of a response that is a power of the
 /// light differs from 1 (the gamma of cameras and projectors: 2.2 is 1.2).

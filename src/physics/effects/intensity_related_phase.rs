@@ -1,6 +1,7 @@
 //! A phase that depends on the amplitude.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, ln, power};
+use crate::physics::powers::{ln, power};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
 /// Phase a factor of e in amplitude, at the reference; in proportion to the logarithm of the amplitude (0), to the amplitude itself (1), or to one
 /// over it (-1) or its root (-0.5).
