@@ -181,7 +181,7 @@ for name in "four-rail wdft-sweep four-dark harmonics wdft-motion".split():
 fn repeats_have_the_photon_transfers_variance() {
     let camera = practice_camera(Geometry { width: 24, height: 18 });
     let sensor = sensor(&camera);
-    let plan = Plan { frequency_hz: 30e6, frame_period_s: 0.025, seed: 3 };
+    let plan = Plan::usual(3);
     let mut course: Course = plan.course("four-rail").unwrap();
     // Near and far, each 100 times.
     let places: Vec<_> =
@@ -226,7 +226,7 @@ fn image_lag_is_the_same_in_any_order() {
     let sensor = sensor(&camera);
     let effects: Vec<Active> = EFFECTS.iter().map(|effect| injection(effect.name).unwrap()).collect();
     let chain = chain(&camera, Arc::new(Stage::bench().pixels(&sensor, 3)), effects);
-    let plan = Plan { frequency_hz: 30e6, frame_period_s: 0.025, seed: 3 };
+    let plan = Plan::usual(3);
     let mut course = plan.course("wdft-motion").unwrap();
     course.sets.truncate(4);
     let simulation = Simulation { chain: &chain, sensor: &sensor, noise: false, seed: 3, recording: 0 };

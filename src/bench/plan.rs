@@ -1,7 +1,7 @@
 //! The recordings of a campaign: what is taken, where, when, how fast.
 
 use super::course::Course;
-use crate::physics::Draws;
+use crate::physics::{Draws, FREQUENCY_HZ};
 use crate::problem::{Problem, Result};
 use crate::recording::{Kind, SetRow};
 use crate::spec::{Scheme, scheme};
@@ -49,6 +49,11 @@ const HARMONICS_FRAMES: usize = 64;
 const HARMONICS_AT_M: [f64; 3] = [1.5, 2.0, 3.0];
 
 impl Plan {
+    /// At the usual frequency, 40 frames a second.
+    pub const fn usual(seed: u64) -> Self {
+        Self { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed }
+    }
+
     /// What recordings are called, all of them.
     pub fn names() -> Vec<String> {
         let of_scheme = |(scheme, _): (&'static str, _)| KINDS.map(|(kind, _)| format!("{scheme}-{kind}"));
@@ -188,7 +193,7 @@ impl Plan {
 mod tests {
     use super::*;
 
-    const PLAN: Plan = Plan { frequency_hz: 30e6, frame_period_s: 0.025, seed: 1 };
+    const PLAN: Plan = Plan::usual(1);
 
     #[test]
     fn every_recording_has_a_course() {

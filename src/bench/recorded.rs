@@ -1,9 +1,10 @@
 //! A simulated recording, as it would be read.
 
-use super::camera::{chain, sensor};
+use super::camera::{chain, practice_camera, sensor};
 use super::course::Course;
 use super::plan::Plan;
 use super::simulation::{Simulation, simulate};
+use crate::frames::Geometry;
 use crate::physics::{Active, Stage};
 use crate::problem::Result;
 use crate::recording::{Camera, Recording};
@@ -40,20 +41,20 @@ pub fn recorded(
     })
 }
 
-/// The recordings called `names` (of [`Plan::names`]) that `camera` takes of the usual bench, with `effects` that it does not tell, and with noise, all drawn by
-/// the seed of `plan`.
+/// The recordings called `names` (of [`Plan::names`]) that the usual camera, of this `size`, takes of the usual bench as is [usual](Plan::usual), with noise and
+/// with `effects` that it does not tell, everything drawn by `seed`.
 ///
 /// # Errors
 /// As [`Plan::course`] and [`simulate`].
-pub fn taken(camera: &Camera, plan: &Plan, effects: &[Active], names: &[&str]) -> Result<Vec<Recording>> {
-    let sensor = sensor(camera);
-    let pixels = Arc::new(Stage::bench().pixels(&sensor, plan.seed));
-    let chain = chain(camera, pixels, effects.to_vec());
+pub fn taken(size: Geometry, seed: u64, effects: &[Active], names: &[&str]) -> Result<Vec<Recording>> {
+    let (camera, plan) = (practice_camera(size), Plan::usual(seed));
+    let sensor = sensor(&camera);
+    let pixels = Arc::new(Stage::bench().pixels(&sensor, seed));
+    let chain = chain(&camera, pixels, effects.to_vec());
     let take = |name: &&str| {
         let recording = number_of(name);
-        let simulation =
-            Simulation { chain: &chain, sensor: &sensor, noise: true, seed: plan.seed, recording };
-        recorded(Path::new("simulated"), name, plan, &plan.course(name)?, camera, &simulation, &|| ())
+        let simulation = Simulation { chain: &chain, sensor: &sensor, noise: true, seed, recording };
+        recorded(Path::new("simulated"), name, &plan, &plan.course(name)?, &camera, &simulation, &|| ())
     };
     names.iter().map(take).collect()
 }

@@ -218,7 +218,7 @@ fn frames_per_second() -> Result<ExitCode> {
     const SETS: usize = 40;
     let camera = practice_camera(Geometry { width: 160, height: 120 });
     let sensor = sensor(&camera);
-    let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: 1 };
+    let plan = Plan::usual(1);
     let mut course = plan.course("wdft-motion")?;
     course.sets.truncate(SETS);
     let pixels = Arc::new(Stage::bench().pixels(&sensor, 1));

@@ -84,12 +84,11 @@ fn simpler(first: &Pass, candidates: &[Candidate], named: &[Named], number: usiz
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::{Plan, injection, practice_camera, taken};
+    use crate::bench::{injection, taken};
     use crate::diagnose::fit::{fit, unfitted};
     use crate::diagnose::pieces::{Piece, candidates};
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
-    use crate::physics::FREQUENCY_HZ;
 
     const SEED: u64 = 5;
     const ERRORS: &str = "phase_step_errors";
@@ -98,12 +97,11 @@ mod tests {
 
     /// A rail of four and of five frames, in which a wall adds to the light, beside effects of the steps.
     fn campaign(steps: &[&str]) -> Data {
-        let camera = practice_camera(Geometry { width: 16, height: 12 });
-        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: SEED };
+        let size = Geometry { width: 16, height: 12 };
         let wall = "multipath_interference:relative_amplitude=0.05,wall_distance_m=1.2";
         let effects: Vec<_> =
             [steps, &[wall]].concat().into_iter().map(|text| injection(text).unwrap()).collect();
-        let recordings = taken(&camera, &plan, &effects, &["four-rail", "wdft-rail"]).unwrap();
+        let recordings = taken(size, SEED, &effects, &["four-rail", "wdft-rail"]).unwrap();
         Data::of(&recordings, Vec::new()).unwrap()
     }
 

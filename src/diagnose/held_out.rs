@@ -271,7 +271,7 @@ mod tests {
     use crate::diagnose::pieces::Piece;
     use crate::diagnose::stated_noise;
     use crate::frames::{Geometry, RawSets};
-    use crate::physics::{Active, FREQUENCY_HZ, Stage};
+    use crate::physics::{Active, Stage};
     use std::path::Path;
 
     const SEED: u64 = 3;
@@ -288,7 +288,7 @@ mod tests {
     fn few_sets(effects: Vec<Active>, pixels: usize) -> Data {
         let camera = practice_camera(GEOMETRY);
         let sensor = sensor(&camera);
-        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: SEED };
+        let plan = Plan::usual(SEED);
         let mut course = plan.course(HARMONICS).unwrap();
         course.sets = course.sets.into_iter().step_by(4).collect();
         let bench = Arc::new(Stage::bench().pixels(&sensor, SEED));

@@ -29,12 +29,11 @@ pub fn with_places(mut moments: Vec<Moment>) -> Vec<Moment> {
 mod tests {
     use super::*;
     use crate::bench::Plan;
-    use crate::physics::FREQUENCY_HZ;
 
     const SEED: u64 = 5;
 
     fn moments(name: &str) -> Vec<Moment> {
-        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: SEED };
+        let plan = Plan::usual(SEED);
         let mut course = plan.course(name).unwrap();
         course.sets = plan.as_read(&course, 0);
         with_places(course.moments())

@@ -83,20 +83,19 @@ fn unusual(piece: &Piece) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::bench::{Plan, practice_camera, taken};
+    use crate::bench::taken;
     use crate::diagnose::Data;
     use crate::diagnose::fit::unfitted;
     use crate::diagnose::pass::Pass;
     use crate::diagnose::pieces::candidates;
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
-    use crate::physics::{Active, FREQUENCY_HZ, effects};
+    use crate::physics::{Active, effects};
 
     /// A rail and a motion, with an effect.
     fn campaign(effects: &[Active]) -> Data {
-        let camera = practice_camera(Geometry { width: 12, height: 10 });
-        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: 4 };
-        Data::of(&taken(&camera, &plan, effects, &["four-rail", "wdft-motion"]).unwrap(), Vec::new()).unwrap()
+        let size = Geometry { width: 12, height: 10 };
+        Data::of(&taken(size, 4, effects, &["four-rail", "wdft-motion"]).unwrap(), Vec::new()).unwrap()
     }
 
     /// What the recordings show of an effect is by how much more they differ from a fit without it.
@@ -107,7 +106,6 @@ mod tests {
         let baseline = unfitted(&clean, noise);
         let candidates = candidates(&clean, &baseline.series);
         let rows = Pass::of(&clean, &baseline, &candidates, noise, 1.0).detectable;
-        // Noise adds two standard deviations of the strength. A line of the encoder is taken for its noise in part.
         let row = |name: &str| rows.iter().find(|row| row.name == name).unwrap();
         let seen = |name: &str, value: f64| {
             let (effect, parameter) = (effects::named(name).unwrap(), row(name).parameter);
@@ -115,6 +113,7 @@ mod tests {
             values[parameter] = value;
             unfitted(&campaign(&[Active { effect, values }]), noise).chi2 - baseline.chi2
         };
+        // Noise adds two standard deviations of the strength. A line of the encoder is taken for its noise in part.
         for (name, is_seen) in
             [("image_lag", 0.7..1.4), ("lens_scatter", 0.7..1.4), ("encoder_cyclic", 0.4..1.4)]
         {

@@ -167,16 +167,14 @@ fn median(values: &mut [f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::{Plan, injection, practice_camera, taken};
+    use crate::bench::{injection, taken};
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
-    use crate::physics::FREQUENCY_HZ;
 
     /// A rail with an `effect`.
     fn rail(effect: &str) -> Data {
-        let camera = practice_camera(Geometry { width: 16, height: 12 });
-        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: 0.025, seed: 2 };
-        let recordings = taken(&camera, &plan, &[injection(effect).unwrap()], &["four-rail"]).unwrap();
+        let size = Geometry { width: 16, height: 12 };
+        let recordings = taken(size, 2, &[injection(effect).unwrap()], &["four-rail"]).unwrap();
         Data::of(&recordings, Vec::new()).unwrap()
     }
 

@@ -7,12 +7,12 @@
 // The constants are as fdlibm prints them.
 #![expect(clippy::excessive_precision)]
 
+use super::trig::ROUND;
+
 // ln 2 in two parts, of which the first has so few bits that its products with small integers are exact.
 const LN_2_HIGH: f64 = 6.931_471_803_691_238_164_90e-1;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_700_02e-10;
-/// Adding and subtracting it rounds to an integer, which stands in the lowest bits of the sum.
-const ROUND: f64 = 6_755_399_441_055_744.0;
-/// The same for integers that stand there already.
+/// Taken away where an integer stands in its lowest bits, it leaves that.
 const WHOLE: f64 = 4_503_599_627_370_496.0;
 /// The bits of 1, and of the least mantissa, a root of a half.
 const ONE: u64 = 0x3ff0_0000_0000_0000;

@@ -12,8 +12,8 @@ const TWO_OVER_PI: f64 = std::f64::consts::FRAC_2_PI;
 const HALF_PI_1: f64 = 1.570_796_326_734_125_614_17;
 const HALF_PI_2: f64 = 6.077_100_506_303_965_976_60e-11;
 const HALF_PI_3: f64 = 2.022_266_248_795_950_631_54e-21;
-/// Adding and subtracting it rounds to an integer.
-const ROUND: f64 = 6_755_399_441_055_744.0;
+/// Adding and subtracting it rounds to an integer, which stands in the lowest bits of the sum.
+pub(super) const ROUND: f64 = 6_755_399_441_055_744.0;
 
 const SINE: [f64; 6] = [
     -1.666_666_666_666_663_243_48e-1,
@@ -37,7 +37,6 @@ const COSINE: [f64; 6] = [
 pub fn cos_sin(angle_rad: f64) -> (f64, f64) {
     let shifted = angle_rad * TWO_OVER_PI + ROUND;
     let quarters = shifted - ROUND;
-    // The integer stands in the lowest bits of the sum.
     let quadrant = shifted.to_bits() & 3;
     let x = angle_rad - quarters * HALF_PI_1 - quarters * HALF_PI_2 - quarters * HALF_PI_3;
     let z = x * x;

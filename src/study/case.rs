@@ -1,9 +1,9 @@
 //! One campaign: made, diagnosed, judged.
 
-use crate::bench::{Plan, practice_camera, taken};
+use crate::bench::taken;
 use crate::diagnose::{Data, diagnose};
 use crate::frames::Geometry;
-use crate::physics::{Active, Effect, FREQUENCY_HZ};
+use crate::physics::{Active, Effect};
 use crate::problem::Result;
 
 /// An effect in a campaign.
@@ -48,7 +48,6 @@ pub struct Outcome {
 /// Recordings of a campaign.
 const RECORDINGS: [&str; 6] =
     ["four-sweep", "four-rail", "four-motion", "wdft-sweep", "wdft-rail", "wdft-motion"];
-const FRAME_PERIOD_S: f64 = 0.025;
 
 impl Case {
     /// A campaign without any effect.
@@ -58,12 +57,10 @@ impl Case {
 
     /// The campaign; with `library` among what a diagnosis knows.
     fn data(&self, size: Geometry, library: Vec<&'static Effect>) -> Result<Data> {
-        let plan = Plan { frequency_hz: FREQUENCY_HZ, frame_period_s: FRAME_PERIOD_S, seed: self.seed };
         let active =
             |concealed: &Concealed| Active { effect: concealed.effect, values: concealed.values.clone() };
         let effects: Vec<Active> = self.effects.iter().map(active).collect();
-        let recordings = taken(&practice_camera(size), &plan, &effects, &RECORDINGS)?;
-        Data::of(&recordings, library)
+        Data::of(&taken(size, self.seed, &effects, &RECORDINGS)?, library)
     }
 
     /// What this campaign would show of the registry's effects and those of `library`: `(effect, its first number that is seen, a standard
