@@ -10,11 +10,13 @@ pub const SPEED_OF_LIGHT_M_S: f64 = 299_792_458.0;
 pub type Turns = U0F64;
 
 /// The unambiguous range c / (2 f) in metres of the modulation frequency `frequency_hz` (> 0).
+#[inline(always)]
 pub fn unambiguous_range_m(frequency_hz: f64) -> f64 {
     SPEED_OF_LIGHT_M_S / (2.0 * frequency_hz)
 }
 
 /// The phase 4π f d / c in radians (not wrapped) of an object at `range_m` (Drayton 2012, equation for d).
+#[inline(always)]
 pub fn phase_rad(range_m: f64, frequency_hz: f64) -> f64 {
     TAU * range_m / unambiguous_range_m(frequency_hz)
 }

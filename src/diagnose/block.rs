@@ -4,10 +4,11 @@ use super::acting::{Acting, Share};
 use super::columns::OWN;
 use super::data::Data;
 use super::gram::Whitened;
+use super::products::products;
 use super::set_errors::{self, Jitter};
+use crate::widest::widest;
 use nalgebra::DMatrix;
-use ndarray::linalg::general_mat_mul;
-use ndarray::{Array2, ArrayView2, Axis};
+use pulp::{Simd, WithSimd};
 
 /// Columns that are solved together, and, last, the residual.
 #[derive(Debug, Clone)]
@@ -20,15 +21,14 @@ pub struct Block {
     pub errors: Vec<DMatrix<f64>>,
     /// What is to be added to `mixed`: patterns times each of the pixels' own numbers, and which column has them.
     waiting: Waiting,
-    /// Room for a frame's patterns.
-    values: Vec<f32>,
 }
 
 /// What waits for others: frames that have a column are added to its sums together.
 #[derive(Debug, Clone, Default)]
 struct Waiting {
-    /// A value a pixel of each pattern, frame after frame.
+    /// A value a pixel of each pattern, frame after frame; how many of these numbers there are, and room for more.
     values: Vec<f32>,
+    used: usize,
     /// The pixels' own numbers in each frame.
     own: Vec<f32>,
     /// What columns have of the patterns, and in which frame these are.
@@ -39,6 +39,8 @@ struct Waiting {
 pub struct Rows<'a> {
     /// By the pixel's own numbers.
     pub own: [Vec<f64>; OWN],
+    /// The same in single precision, number after number.
+    pub own_single: Vec<f32>,
     /// By the errors that samples share: the set's position, and what the frame has for itself.
     pub errors: Vec<Vec<f64>>,
     /// Root of the weight.
@@ -51,9 +53,15 @@ impl<'a> Rows<'a> {
     /// Those of a frame, where frames are off by a `jitter`.
     pub fn of(data: &Data, whitened: &Whitened<'a>, jitter: Jitter) -> Self {
         let Whitened { frame, roots, residual, .. } = *whitened;
-        let times = |values: &[f64]| -> Vec<f64> {
-            pulp::Arch::new()
-                .dispatch(|| roots.iter().zip(values).map(|(root, value)| root * value).collect())
+        let times = |values: &[f64]| {
+            let mut products = vec![0.0; roots.len()];
+            let all = &mut products[..];
+            widest!((all: &'a mut [f64], roots: &'a [f64], values: &'a [f64]) {
+                for ((product, root), value) in all.iter_mut().zip(roots).zip(values) {
+                    *product = root * value;
+                }
+            });
+            products
         };
         let mut own = frame.own.each_ref().map(|own| times(own));
         // A background never moves: as long as the light is on, its constant light is ambient light.
@@ -63,12 +71,17 @@ impl<'a> Rows<'a> {
             }
         }
         let errors = set_errors::tangents(jitter, whitened, &own, times(&frame.position));
-        Self { own, errors, roots, residual }
+        Self { own_single: single(&own), own, errors, roots, residual }
     }
 }
 
-/// So many patterns are multiplied with all others at a time: half of a symmetric product need not be made.
-const PANEL: usize = 64;
+/// All of the pixels' `own` numbers, number after number.
+fn single(own: &[Vec<f64>; OWN]) -> Vec<f32> {
+    let mut all = Vec::with_capacity(own.iter().map(Vec::len).sum());
+    own.iter().for_each(|own| all.extend(own.iter().map(|&own| own as f32)));
+    all
+}
+
 /// So many numbers may wait for their columns.
 const WAITING: usize = 1 << 17;
 
@@ -80,7 +93,6 @@ impl Block {
             mixed: DMatrix::zeros(OWN * pixels, columns + 1),
             errors: vec![DMatrix::zeros(0, 0); sets],
             waiting: Waiting::default(),
-            values: Vec::new(),
         }
     }
 
@@ -114,27 +126,29 @@ impl Block {
         let before = shared.patterns.len();
         let residual = before + own.patterns.len();
         let (errors, end) = (residual + 1, residual + 1 + places.len());
-        let mut values = std::mem::take(&mut self.values);
-        values.resize(pixels * end, 0.0);
+        let waits = self.waiting.used;
+        if self.waiting.values.len() < waits + pixels * end {
+            self.waiting.values.resize(WAITING + pixels * end, 0.0);
+        }
+        let values = &mut self.waiting.values[waits..waits + pixels * end];
         let patterns = shared.patterns.iter().chain(&own.patterns);
         let mut sizes = vec![1.0; end];
         for ((values, size), pattern) in values.chunks_exact_mut(pixels).zip(&mut sizes).zip(patterns) {
             debug_assert_eq!(pattern.len(), pixels);
-            pulp::Arch::new().dispatch(|| *size = times(rows.roots, pattern, values));
+            *size = times(rows.roots, pattern, values);
         }
         let of_errors = rows.errors.iter().map(|error| &error[..]);
         let last_rows = values[pixels * residual..].chunks_exact_mut(pixels);
         for (values, of) in last_rows.zip(std::iter::once(rows.residual).chain(of_errors)) {
             values.iter_mut().zip(of).for_each(|(value, &of)| *value = of as f32);
         }
+        let product = products(values, pixels);
         let own = own.shares.iter().map(|share| share.after(first, before));
         let of_residual = Share { column: last, pattern: residual, factor: 1.0 };
         let shares = shared.shares.iter().copied().chain(own).chain([of_residual]);
         let sized = |share: Share| Share { factor: share.factor * sizes[share.pattern], ..share };
         let shares: Vec<Share> = shares.map(sized).collect();
         debug_assert!(shares.is_sorted_by_key(|share| share.column));
-        self.wait(rows, &values[..pixels * errors], &shares);
-        let product = squared(&values, pixels);
         let columns: Vec<&[Share]> = shares.chunk_by(|a, b| a.column == b.column).collect();
         let mut with = vec![0.0; end];
         for (place, of) in columns.iter().enumerate() {
@@ -143,9 +157,12 @@ impl Block {
             for share in *of {
                 let products = product.row(share.pattern);
                 let products = products.to_slice().expect("a row is a slice");
-                with.iter_mut()
-                    .zip(products)
-                    .for_each(|(sum, &value)| *sum += share.factor * f64::from(value));
+                let (with, factor) = (&mut with[..], share.factor);
+                widest!((with: &'a mut [f64], products: &'a [f32], factor: f64) {
+                    for (sum, &value) in with.iter_mut().zip(products) {
+                        *sum += factor * f64::from(value);
+                    }
+                });
             }
             for (&place, with) in places.iter().zip(&with[errors..]) {
                 self.errors[set][(place, column)] += with;
@@ -156,32 +173,32 @@ impl Block {
                 sums[share.column] += share.factor * with[share.pattern];
             }
         }
-        self.values = values;
+        // The errors do not wait.
+        self.waiting.used = waits + pixels * errors;
+        self.wait(rows, waits / pixels, &shares);
     }
 
-    /// What a frame adds to `mixed` waits for that of others: by `values` a pixel of its patterns.
-    fn wait(&mut self, rows: &Rows, values: &[f32], shares: &[Share]) {
-        let Waiting { values: waiting, own, shares: with } = &mut self.waiting;
-        let pixels = rows.roots.len();
-        let (frame, before) = (own.len() / (OWN * pixels), waiting.len() / pixels);
-        waiting.extend_from_slice(values);
-        own.extend(rows.own.iter().flatten().map(|&own| own as f32));
+    /// What a frame adds to `mixed` waits for that of others: its `shares` of patterns, of which so many waited `before`.
+    fn wait(&mut self, rows: &Rows, before: usize, shares: &[Share]) {
+        let Waiting { used, own, shares: with, .. } = &mut self.waiting;
+        let frame = own.len() / rows.own_single.len();
+        own.extend_from_slice(&rows.own_single);
         with.extend(shares.iter().map(|share| (share.after(0, before), frame)));
-        if waiting.len() > WAITING {
+        if *used > WAITING {
             self.settle();
         }
     }
 
     /// Adds what waits: no frame is to come, or there is too much.
     pub fn settle(&mut self) {
-        let Waiting { values, own, shares } = &mut self.waiting;
+        let Waiting { values, used, own, shares } = &mut self.waiting;
         shares.sort_by_key(|(share, _)| share.column);
         let mut sum = vec![0.0_f32; self.mixed.nrows()];
         for of in shares.chunk_by(|(a, _), (b, _)| a.column == b.column) {
             let mut sums = self.mixed.column_mut(of[0].0.column);
             pulp::Arch::new().dispatch(Add { of, values, own, sum: &mut sum, sums: sums.as_mut_slice() });
         }
-        values.clear();
+        *used = 0;
         own.clear();
         shares.clear();
     }
@@ -191,59 +208,31 @@ impl Block {
 const SIZES: std::ops::Range<f64> = 1e-9..1e9;
 
 /// Products of the roots with a pattern, in single precision, over the size that is given back: 1 where single precision knows such numbers well.
-#[inline(always)]
 fn times(roots: &[f64], pattern: &[f64], product: &mut [f32]) -> f64 {
-    let greatest = pattern.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
+    let mut greatest = [0.0; LANES];
+    {
+        let greatest = &mut greatest;
+        widest!((greatest: &'a mut [f64; LANES], pattern: &'a [f64]) {
+            for values in pattern.chunks(LANES) {
+                for (greatest, value) in greatest.iter_mut().zip(values) {
+                    *greatest = if value.abs() > *greatest { value.abs() } else { *greatest };
+                }
+            }
+        });
+    }
+    let greatest = greatest.into_iter().fold(0.0, f64::max);
     let size = if greatest == 0.0 || SIZES.contains(&greatest) { 1.0 } else { greatest };
     let per = size.recip();
-    for ((product, root), value) in product.iter_mut().zip(roots).zip(pattern) {
-        *product = (root * value * per) as f32;
-    }
+    widest!((product: &'a mut [f32], roots: &'a [f64], pattern: &'a [f64], per: f64) {
+        for ((product, root), value) in product.iter_mut().zip(roots).zip(pattern) {
+            *product = (root * value * per) as f32;
+        }
+    });
     size
 }
 
-/// The products of all rows of so many `pixels` with each other.
-fn squared(values: &[f32], pixels: usize) -> Array2<f32> {
-    let count = values.len() / pixels;
-    let row = |number: usize| &values[pixels * number..pixels * (number + 1)];
-    if count <= FEW {
-        let arch = pulp::Arch::new();
-        return Array2::from_shape_fn((count, count), |(a, b)| arch.dispatch(|| dot(row(a), row(b))));
-    }
-    let values = ArrayView2::from_shape((count, pixels), values).expect("a row a pattern");
-    let mut product = Array2::zeros((count, count));
-    for first in (0..count).step_by(PANEL) {
-        let end = count.min(first + PANEL);
-        let panel = values.slice_axis(Axis(0), (first..end).into());
-        let rest = values.slice_axis(Axis(0), (first..).into());
-        let mut columns = product.slice_axis_mut(Axis(1), (first..end).into());
-        let mut below = columns.slice_axis_mut(Axis(0), (first..).into());
-        general_mat_mul(1.0, &rest, &panel.t(), 0.0, &mut below);
-        for row in end..count {
-            for column in first..end {
-                product[(column, row)] = product[(row, column)];
-            }
-        }
-    }
-    product
-}
-
-/// So few rows are multiplied one by one.
-const FEW: usize = 8;
-/// Sums that are made side by side.
+/// Maxima that are looked for side by side.
 const LANES: usize = 16;
-
-#[inline(always)]
-fn dot(a: &[f32], b: &[f32]) -> f32 {
-    let mut sums = [0.0; LANES];
-    let (a, b) = (a.chunks(LANES), b.chunks(LANES));
-    for (a, b) in a.zip(b) {
-        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-            *sum += a * b;
-        }
-    }
-    sums.iter().sum()
-}
 
 /// Adds what a column has of patterns, times the pixels' own numbers, to its sums.
 struct Add<'a> {
@@ -254,21 +243,45 @@ struct Add<'a> {
     sums: &'a mut [f64],
 }
 
-impl pulp::NullaryFnOnce for Add<'_> {
+impl<'a> WithSimd for Add<'a> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
+    fn with_simd<S: Simd>(self, simd: S) {
         let Self { of, values, own, sum, sums } = self;
         let pixels = sum.len() / OWN;
-        sum.fill(0.0);
+        // Closures would not be made with these registers.
+        let mut parts = Vec::with_capacity(of.len());
+        let count = pixels / S::F32_LANES;
         for (share, frame) in of {
-            let factor = share.factor as f32;
-            let values = &values[pixels * share.pattern..pixels * (share.pattern + 1)];
-            let own = &own[OWN * pixels * frame..OWN * pixels * (frame + 1)];
-            for (sum, own) in sum.chunks_exact_mut(pixels).zip(own.chunks_exact(pixels)) {
-                for ((sum, own), value) in sum.iter_mut().zip(own).zip(values) {
-                    *sum += factor * value * own;
+            let value = &values[pixels * share.pattern..pixels * (share.pattern + 1)];
+            let numbers = &own[pixels * OWN * frame..pixels * OWN * (frame + 1)];
+            let mut wide = [&S::as_simd_f32s(value).0[..count]; OWN];
+            for (wide, row) in wide.iter_mut().zip(numbers.chunks_exact(pixels)) {
+                *wide = &S::as_simd_f32s(row).0[..count];
+            }
+            let factor = simd.splat_f32s(share.factor as f32);
+            parts.push((factor, &S::as_simd_f32s(value).0[..count], wide));
+        }
+        for at in 0..count {
+            let mut all = [simd.splat_f32s(0.0); OWN];
+            for (factor, value, own) in &parts {
+                let value = simd.mul_f32s(*factor, value[at]);
+                for number in 0..OWN {
+                    all[number] = simd.mul_add_f32s(value, own[number][at], all[number]);
+                }
+            }
+            for (sum, all) in sum.chunks_exact_mut(pixels).zip(all) {
+                S::as_mut_simd_f32s(sum).0[at] = all;
+            }
+        }
+        // What does not fill a register.
+        for pixel in count * S::F32_LANES..pixels {
+            for (number, sum) in sum.chunks_exact_mut(pixels).enumerate() {
+                sum[pixel] = 0.0;
+                for (share, frame) in of {
+                    let value = share.factor as f32 * values[pixels * share.pattern + pixel];
+                    sum[pixel] += value * own[pixels * (OWN * frame + number) + pixel];
                 }
             }
         }
@@ -300,8 +313,10 @@ mod tests {
         for frame in 0..FRAMES {
             let seed = |n: usize| draws(1000 * frame as u64 + n as u64);
             let (roots, residual) = (seed(1).iter().map(|v| v.abs()).collect::<Vec<_>>(), seed(2));
+            let own_rows = [seed(3), seed(4), seed(5), seed(6)];
             let rows = Rows {
-                own: [seed(3), seed(4), seed(5), seed(6)],
+                own_single: single(&own_rows),
+                own: own_rows,
                 errors: vec![seed(7)],
                 roots: &roots,
                 residual: &residual,

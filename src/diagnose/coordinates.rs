@@ -8,6 +8,7 @@ use super::ranges::Ranges;
 use crate::frames::Geometry;
 use crate::physics::{Moment, Pixels, cos_sin};
 use crate::units::phase_rad;
+use crate::widest::widest;
 use std::f64::consts::TAU;
 
 /// What a column may be made of, in one frame.
@@ -356,12 +357,13 @@ fn code(view: &View) -> Acting {
             columns[hat][pixel] = value;
         }
     }
-    let (_, patterns) = columns.split_at_mut(CODES);
+    let (pedestal_dn, (_, patterns)) = (view.pixels.pedestal_dn, columns.split_at_mut(CODES));
     for (pair, period) in patterns.chunks_exact_mut(2).zip(PATTERNS) {
         let [cosines, sines] = pair else { continue };
-        pulp::Arch::new().dispatch(|| {
-            for ((cosine, sine), signal) in cosines.iter_mut().zip(sines).zip(&base[..]) {
-                (*cosine, *sine) = cos_sin(TAU * (signal + view.pixels.pedestal_dn) / period);
+        let (cosines, sines, base) = (&mut cosines[..], &mut sines[..], &base[..]);
+        widest!((cosines: &'a mut [f64], sines: &'a mut [f64], base: &'a [f64], pedestal_dn: f64, period: f64) {
+            for ((cosine, sine), signal) in cosines.iter_mut().zip(sines).zip(base) {
+                (*cosine, *sine) = cos_sin(TAU * (signal + pedestal_dn) / period);
             }
         });
     }

@@ -9,6 +9,7 @@ use super::encoder_noise::jitter;
 use super::in_order::joined;
 use super::noise::Noise;
 use super::set_errors::{self, Jitter, SetErrors, explained, of_reading};
+use crate::widest::widest;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
 
@@ -70,19 +71,20 @@ const WINSOR: f64 = 4.0;
 pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise) -> (Vec<f64>, Vec<f64>) {
     let pixels = data.pixels();
     let signal = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
-    pulp::Arch::new().dispatch(|| {
-        let root = |(measured, &base): (&f32, &f64)| {
-            if measured.is_nan() { 0.0 } else { noise.weight(base).sqrt() }
-        };
-        let roots: Vec<f64> = signal.iter().zip(base).map(root).collect();
-        let residual = |((&measured, base), root): ((&f32, &f64), &f64)| match *root == 0.0 {
-            true => 0.0,
-            // What is no number stays none.
-            false => (root * (f64::from(measured) - base)).clamp(-WINSOR, WINSOR),
-        };
-        let residuals = signal.iter().zip(base).zip(&roots).map(residual).collect();
-        (roots, residuals)
-    })
+    let (mut roots, mut residuals) = (vec![0.0; pixels], vec![0.0; pixels]);
+    {
+        let (roots, residuals) = (&mut roots[..], &mut residuals[..]);
+        widest!((signal: &'a [f32], base: &'a [f64], noise: Noise, roots: &'a mut [f64], residuals: &'a mut [f64]) {
+            for (((&measured, &base), root), residual) in signal.iter().zip(base).zip(roots).zip(residuals) {
+                let counts = !measured.is_nan();
+                *root = if counts { noise.weight(base).sqrt() } else { 0.0 };
+                // What is no number stays none.
+                let beyond = *root * (f64::from(measured) - base);
+                *residual = if *root == 0.0 { 0.0 } else { beyond.clamp(-WINSOR, WINSOR) };
+            }
+        });
+    }
+    (roots, residuals)
 }
 
 impl Gram {
@@ -191,13 +193,14 @@ impl Gram {
         let rows = Rows::of(data, whitened, self.jitter);
         let (set, moment) = (whitened.set, &data.takes[whitened.take].moments[whitened.index]);
         let places: Vec<usize> = set_errors::places(self.jitter, moment.frame).collect();
-        pulp::Arch::new().dispatch(|| {
-            for (sums, (a, b)) in self.own.iter_mut().zip(PAIRS) {
-                for ((sum, a), b) in sums.iter_mut().zip(&rows.own[a]).zip(&rows.own[b]) {
+        for (sums, (a, b)) in self.own.iter_mut().zip(PAIRS) {
+            let (sums, a, b) = (&mut sums[..], &rows.own[a][..], &rows.own[b][..]);
+            widest!((sums: &'a mut [f64], a: &'a [f64], b: &'a [f64]) {
+                for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
                     *sum += a * b;
                 }
-            }
-        });
+            });
+        }
         self.errors[set].add(&places, &rows.errors, &rows.own);
         self.chi2 += rows.residual.iter().map(|residual| residual * residual).sum::<f64>();
         self.samples += rows.roots.iter().filter(|root| **root > 0.0).count();

@@ -41,6 +41,7 @@ mod periodogram;
 mod pieces;
 mod places;
 mod power;
+mod products;
 mod profiles;
 mod random;
 mod ranges;

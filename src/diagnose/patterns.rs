@@ -3,6 +3,7 @@
 
 use super::acting::Acting;
 use crate::physics::{Active, Chain, Exposure, Place};
+use crate::widest::widest;
 
 /// A change of a frame that several effects may make.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -143,17 +144,38 @@ fn changes(exposure: &Exposure, station: &Exposure) -> Option<Vec<(Change, f64)>
 
 /// The factor by which all values are others, if it is one.
 fn factor(pairs: &[(&[f64], &[f64])]) -> Option<f64> {
-    let all = || pairs.iter().flat_map(|(changed, own)| changed.iter().zip(*own));
-    let factor = all().find(|(_, own)| **own != 0.0).map_or(1.0, |(changed, own)| changed / own);
-    let is_same = |(changed, own): (&f64, &f64)| (changed - factor * own).abs() <= ROUNDING * own.abs();
-    all().all(is_same).then_some(factor)
+    let mut all = pairs.iter().flat_map(|(changed, own)| changed.iter().zip(*own));
+    let factor = all.find(|(_, own)| **own != 0.0).map_or(1.0, |(changed, own)| changed / own);
+    pairs.iter().all(|(changed, own)| is_multiple(changed, own, factor)).then_some(factor)
 }
+
+/// Whether all values are `factor` times others.
+fn is_multiple(changed: &[f64], own: &[f64], factor: f64) -> bool {
+    let mut same = [1_u64; LANES];
+    let all = &mut same;
+    widest!((all: &'a mut [u64; LANES], changed: &'a [f64], own: &'a [f64], factor: f64) {
+        for (changed, own) in changed.chunks(LANES).zip(own.chunks(LANES)) {
+            for ((same, changed), own) in all.iter_mut().zip(changed).zip(own) {
+                *same &= u64::from((changed - factor * own).abs() <= ROUNDING * own.abs());
+            }
+        }
+    });
+    same == [1; LANES]
+}
+
+/// Values that are compared side by side.
+const LANES: usize = 16;
 
 /// The difference of a `changed` frame from `base`, over the `step` that made it.
 pub fn difference(changed: &[f64], base: &[f64], step: f64) -> Vec<f64> {
-    let per = step.recip();
-    pulp::Arch::new()
-        .dispatch(|| changed.iter().zip(base).map(|(changed, base)| (changed - base) * per).collect())
+    let (per, mut differences) = (step.recip(), vec![0.0; base.len()]);
+    let all = &mut differences[..];
+    widest!((all: &'a mut [f64], changed: &'a [f64], base: &'a [f64], per: f64) {
+        for ((difference, changed), base) in all.iter_mut().zip(changed).zip(base) {
+            *difference = (changed - base) * per;
+        }
+    });
+    differences
 }
 
 #[cfg(test)]

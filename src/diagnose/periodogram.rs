@@ -1,6 +1,7 @@
 //! Periodograms: what lines explain of a series with gaps, whose samples are known to this and that (Lomb 1976, with the information as weights).
 
 use crate::physics::cos_sin;
+use crate::widest::widest;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -87,41 +88,58 @@ pub fn chi2(group: &[(f64, Sum)]) -> f64 {
 /// Neighbouring frequencies that are looked at together: each sample's phase is turned from one to the next.
 const TOGETHER: usize = 64;
 
-/// A sample, and its phase at a frequency.
-struct Turning {
-    score: f64,
-    information: f64,
-    cosine: f64,
-    sine: f64,
-    /// By what it turns to the next frequency.
-    turn: (f64, f64),
+/// Samples that are summed side by side.
+const LANES: usize = 8;
+/// That many samples: score, information, cosine and sine of their phases at a frequency, and those of the angles by which these turn to the next one.
+type Turning = [[f64; LANES]; 6];
+/// Sums over samples: scores, with the cosine and the sine, and their information; information with the cosine and the sine.
+type Sums = [[f64; LANES]; 7];
+
+/// The sums at a frequency; the samples turn to the next one.
+fn turned(samples: &mut [Turning]) -> [f64; 7] {
+    let mut sums: Sums = [[0.0; LANES]; 7];
+    {
+        let sums = &mut sums;
+        widest!((samples: &'a mut [Turning], sums: &'a mut Sums) {
+            let mut all = *sums;
+            for [score, information, cosine, sine, turn_cosine, turn_sine] in samples {
+                for n in 0..LANES {
+                    let (c, s) = (cosine[n], sine[n]);
+                    let (with_cosine, with_sine) = (information[n] * c, information[n] * s);
+                    all[0][n] += score[n] * c;
+                    all[1][n] += score[n] * s;
+                    all[2][n] += with_cosine * c;
+                    all[3][n] += with_sine * s;
+                    all[4][n] += with_cosine * s;
+                    all[5][n] += with_cosine;
+                    all[6][n] += with_sine;
+                    cosine[n] = c * turn_cosine[n] - s * turn_sine[n];
+                    sine[n] = s * turn_cosine[n] + c * turn_sine[n];
+                }
+            }
+            *sums = all;
+        });
+    }
+    sums.map(|lanes| lanes.iter().sum())
 }
 
 /// Adds the powers at `frequency` and at those after it, each `step` above the last, of what is `sought`.
 pub fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, sought: Sought, powers: &mut [f64]) {
     let angle = |turns: f64| cos_sin(TAU * (turns - turns.floor()));
-    let turning = |&(at, (score, information)): &(f64, Sum)| {
-        let (cosine, sine) = angle(at * frequency);
-        Turning { score, information, cosine, sine, turn: angle(at * step) }
-    };
-    let mut samples: Vec<Turning> = group.iter().map(turning).collect();
-    let (score, information) =
-        samples.iter().fold((0.0, 0.0), |sums, sample| (sums.0 + sample.score, sums.1 + sample.information));
-    for (number, power) in powers.iter_mut().enumerate() {
-        let (mut c, mut s, mut cc, mut ss, mut cs) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        let (mut of_cosine, mut of_sine) = (0.0, 0.0);
-        for sample in &mut samples {
-            let Turning { score, information, cosine, sine, turn } = *sample;
-            c += score * cosine;
-            s += score * sine;
-            cc += information * cosine * cosine;
-            ss += information * sine * sine;
-            cs += information * cosine * sine;
-            of_cosine += information * cosine;
-            of_sine += information * sine;
-            sample.cosine = cosine * turn.0 - sine * turn.1;
-            sample.sine = sine * turn.0 + cosine * turn.1;
+    let turning = |some: &[(f64, Sum)]| {
+        let mut lanes: Turning = [[0.0; LANES]; 6];
+        for (n, &(at, (score, information))) in some.iter().enumerate() {
+            let ((cosine, sine), turn) = (angle(at * frequency), angle(at * step));
+            let of = [score, information, cosine, sine, turn.0, turn.1];
+            lanes.iter_mut().zip(of).for_each(|(lanes, of)| lanes[n] = of);
         }
+        lanes
+    };
+    let mut samples: Vec<Turning> = group.chunks(LANES).map(turning).collect();
+    let (score, information) =
+        group.iter().fold((0.0, 0.0), |sums, (_, sum)| (sums.0 + sum.0, sums.1 + sum.1));
+    for (number, power) in powers.iter_mut().enumerate() {
+        let [mut c, mut s, mut cc, mut ss, mut cs, of_cosine, of_sine] = turned(&mut samples);
         let is_alike = of_cosine.hypot(of_sine) > sought.most_alike * information;
         if sought.constant && information > 0.0 {
             (c, s) = (c - of_cosine * score / information, s - of_sine * score / information);

@@ -5,6 +5,7 @@
 use super::columns::OWN;
 use super::common_phase::CommonPhase;
 use super::gram::Whitened;
+use crate::widest::widest;
 use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut, DVector, Matrix4, Vector4};
 
 /// Standard deviations of what frames are off by at random: of the phase, rad, and of the time, s. An error of 0 is not there.
@@ -65,20 +66,20 @@ impl SetErrors {
 
     /// With a frame, by what its errors at these `places` and the pixels' `own` numbers do.
     pub fn add(&mut self, places: &[usize], errors: &[Vec<f64>], own: &[Vec<f64>; OWN]) {
-        let arch = pulp::Arch::new();
         for (&place, error) in places.iter().zip(errors) {
             for (&other, with) in places.iter().zip(errors) {
                 self.square[(place, other)] += error.iter().zip(with).map(|(a, b)| a * b).sum::<f64>();
             }
             let pixels = error.len();
             let sums = &mut self.own[place * OWN * pixels..(place + 1) * OWN * pixels];
-            arch.dispatch(|| {
-                for (sums, own) in sums.chunks_exact_mut(pixels).zip(own) {
+            for (sums, own) in sums.chunks_exact_mut(pixels).zip(own) {
+                let (own, error) = (&own[..], &error[..]);
+                widest!((sums: &'a mut [f32], own: &'a [f64], error: &'a [f64]) {
                     for ((sum, own), error) in sums.iter_mut().zip(own).zip(error) {
                         *sum += (own * error) as f32;
                     }
-                }
-            });
+                });
+            }
         }
     }
 

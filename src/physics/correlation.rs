@@ -2,6 +2,7 @@
 
 use super::per_pixel::PerPixel;
 use super::trig::cos_sin;
+use crate::widest::widest;
 use std::sync::Arc;
 
 /// The modulation frequency of the paper's linearity measurements, Hz (Drayton, Carnegie, Dorrington 2012), and so of
@@ -108,6 +109,25 @@ impl Waveform {
         Self { correlation: correlation.clone(), phase_rad: phase_rad.clone(), angle_rad, relative }
     }
 
+    /// What [`Self::of`] would give for a correlation with further harmonics, but for rounding; nothing where `correlation` is another.
+    pub fn with_more(&self, correlation: &Correlation, phase_rad: &PerPixel, angle_rad: f64) -> Option<Self> {
+        let is_at_hand = self.angle_rad == angle_rad && self.phase_rad == *phase_rad;
+        let more =
+            correlation.harmonics.strip_prefix(&self.correlation.harmonics[..]).filter(|_| is_at_hand)?;
+        let mut relative = self.relative.clone();
+        for harmonic in more.iter().filter(|harmonic| harmonic.amplitude != 0.0) {
+            let (relative, phases) = (&mut relative[..], &phase_rad[..]);
+            let (number, amplitude, begin_rad) =
+                (f64::from(harmonic.number), harmonic.amplitude, harmonic.phase_rad);
+            widest!((relative: &'a mut [f64], phases: &'a [f64], angle_rad: f64, number: f64, amplitude: f64, begin_rad: f64) {
+                for (relative, phase_rad) in relative.iter_mut().zip(phases) {
+                    *relative += amplitude * cos_sin(number * (angle_rad - phase_rad) + begin_rad).0;
+                }
+            });
+        }
+        Some(Self { correlation: correlation.clone(), phase_rad: phase_rad.clone(), angle_rad, relative })
+    }
+
     /// Whether it is what [`Self::of`] would give.
     pub fn is_of(&self, correlation: &Correlation, phase_rad: &PerPixel, angle_rad: f64) -> bool {
         self.angle_rad == angle_rad && self.correlation == *correlation && self.phase_rad == *phase_rad
@@ -173,6 +193,27 @@ mod tests {
             let expected = Correlation::measured().at(1.234 - phase) + third;
             assert!((relative - expected).abs() < 1e-12, "{phase}: {relative}, not {expected}");
         }
+    }
+
+    /// One harmonic more is one more, and of another waveform, or at other phases, nothing is known.
+    #[test]
+    fn further_harmonics_are_added() {
+        let phase_rad: PerPixel = (0..70).map(|n| f64::from(n) * 0.37 - 9.0).collect();
+        let known = Waveform::of(&Correlation::measured(), &phase_rad, 1.234);
+        let mut more = Correlation::measured();
+        more.add_harmonic(2, 0.0, 0.0);
+        more.add_harmonic(5, 0.02, -0.01);
+        let further = known.with_more(&more, &phase_rad, 1.234).unwrap();
+        let anew = Waveform::of(&more, &phase_rad, 1.234);
+        assert!(further.is_of(&more, &phase_rad, 1.234));
+        for (further, anew) in further.relative().iter().zip(anew.relative()) {
+            assert!((further - anew).abs() < 1e-14, "{further}, not {anew}");
+        }
+        assert!(
+            known.relative().iter().zip(anew.relative()).any(|(known, anew)| (known - anew).abs() > 1e-3)
+        );
+        assert!(further.with_more(&Correlation::measured(), &phase_rad, 1.234).is_none());
+        assert!(known.with_more(&more, &phase_rad, 1.235).is_none());
     }
 
     #[test]

@@ -6,6 +6,7 @@ use super::correlation::{Correlation, Waveform};
 use super::per_pixel::PerPixel;
 use super::pixels::Pixels;
 use crate::units::phase_rad;
+use crate::widest::widest;
 use std::sync::Arc;
 
 /// When and how one raw frame is taken.
@@ -225,43 +226,60 @@ impl Exposure {
     /// Ranges and phases from position and motion.
     pub fn look(&mut self) {
         let position_m = self.position_m + self.motion_share * self.way_m();
-        let (pixels, frequency_hz) = (&self.pixels, self.frequency_hz);
-        pulp::Arch::new().dispatch(|| {
-            self.range_m = ranges_m(pixels, position_m);
-            let phases = self.range_m.iter().zip(&pixels.phase_rad);
-            self.phase_rad =
-                phases.map(|(&range_m, own_rad)| phase_rad(range_m, frequency_hz) + own_rad).collect();
+        let (pixels, frequency_hz) = (&*self.pixels, self.frequency_hz);
+        let (mut ranges, mut phases) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
+        let (ranges_m, phases_rad) = (&mut ranges[..], &mut phases[..]);
+        widest!((pixels: &'a Pixels, position_m: f64, frequency_hz: f64, ranges_m: &'a mut [f64], phases_rad: &'a mut [f64]) {
+            look_at(pixels, position_m, ranges_m);
+            for ((phase, range_m), own_rad) in phases_rad.iter_mut().zip(ranges_m).zip(&pixels.phase_rad) {
+                *phase = phase_rad(*range_m, frequency_hz) + own_rad;
+            }
         });
+        (self.range_m, self.phase_rad) = (ranges.into(), phases.into());
     }
 
     /// Light from ranges: the camera's own falls with the square of the range, ambient light does not.
     pub fn light(&mut self) {
         let position_m = self.position_m + self.falloff_share * self.way_m();
-        let (pixels, lit) = (&self.pixels, f64::from(u8::from(self.moment.lit)));
-        pulp::Arch::new().dispatch(|| {
-            let share = |range_m: &f64| lit / (range_m * range_m);
-            let shares: Vec<f64> = ranges_m(pixels, position_m).iter().map(share).collect();
-            let times = |of: &[f64]| of.iter().zip(&shares).map(|(light, share)| light * share).collect();
-            self.amplitude_dn = times(&pixels.amplitude_1m_dn);
-            self.constant_dn = times(&pixels.constant_1m_dn);
+        let (pixels, lit) = (&*self.pixels, f64::from(u8::from(self.moment.lit)));
+        let (mut amplitudes, mut constants) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
+        let (amplitude_dn, constant_dn) = (&mut amplitudes[..], &mut constants[..]);
+        widest!((pixels: &'a Pixels, position_m: f64, lit: f64, amplitude_dn: &'a mut [f64], constant_dn: &'a mut [f64]) {
+            look_at(pixels, position_m, amplitude_dn);
+            let own = pixels.amplitude_1m_dn.iter().zip(&pixels.constant_1m_dn);
+            for ((range_m, constant), (amplitude_1m, constant_1m)) in amplitude_dn.iter_mut().zip(constant_dn).zip(own) {
+                let share = lit / (*range_m * *range_m);
+                *range_m = amplitude_1m * share;
+                *constant = constant_1m * share;
+            }
         });
+        (self.amplitude_dn, self.constant_dn) = (amplitudes.into(), constants.into());
         self.ambient_dn = pixels.ambient_dn.clone();
     }
 
     /// Charge from light: amplitude times waveform, and what is constant.
     pub fn correlate(&mut self) {
-        let known = self
-            .waveform
-            .take()
-            .filter(|known| known.is_of(&self.correlation, &self.phase_rad, self.angle_rad));
-        let waveform = known
-            .unwrap_or_else(|| Arc::new(Waveform::of(&self.correlation, &self.phase_rad, self.angle_rad)));
-        pulp::Arch::new().dispatch(|| {
-            let offsets = self.constant_dn.iter().zip(&*self.ambient_dn).map(|(own, ambient)| own + ambient);
-            let varying =
-                self.amplitude_dn.iter().zip(waveform.relative()).map(|(dn, relative)| dn * relative);
-            self.signal_dn = offsets.zip(varying).map(|(offset, varying)| offset + varying).collect();
-        });
+        let (correlation, phase_rad, angle_rad) = (&self.correlation, &self.phase_rad, self.angle_rad);
+        let waveform = match self.waveform.take() {
+            Some(known) if known.is_of(correlation, phase_rad, angle_rad) => known,
+            known => {
+                let further = known.and_then(|known| known.with_more(correlation, phase_rad, angle_rad));
+                Arc::new(further.unwrap_or_else(|| Waveform::of(correlation, phase_rad, angle_rad)))
+            }
+        };
+        let mut signals = vec![0.0; self.amplitude_dn.len()];
+        {
+            let (signals, relative) = (&mut signals[..], waveform.relative());
+            let (own, ambient, amplitude) = (&*self.constant_dn, &*self.ambient_dn, &*self.amplitude_dn);
+            widest!((signals: &'a mut [f64], own: &'a [f64], ambient: &'a [f64], amplitude: &'a [f64], relative: &'a [f64]) {
+                let offsets = own.iter().zip(ambient);
+                let varying = amplitude.iter().zip(relative);
+                for ((signal, (own, ambient)), (dn, relative)) in signals.iter_mut().zip(offsets).zip(varying) {
+                    *signal = own + ambient + dn * relative;
+                }
+            });
+        }
+        self.signal_dn = signals.into();
         self.waveform = Some(waveform);
     }
 
@@ -288,10 +306,9 @@ impl Exposure {
 
 /// Radial ranges where the target is at `position_m`, m.
 #[inline(always)]
-fn ranges_m(pixels: &Pixels, position_m: f64) -> PerPixel {
+fn look_at(pixels: &Pixels, position_m: f64, ranges_m: &mut [f64]) {
     let places = pixels.target.iter().zip(&pixels.obliquity).zip(&pixels.background_m);
-    let range_m = |((&target, obliquity), &background_m): ((&bool, &f64), &f64)| {
-        if target { position_m * obliquity } else { background_m }
-    };
-    places.map(range_m).collect()
+    for (range_m, ((&target, obliquity), &background_m)) in ranges_m.iter_mut().zip(places) {
+        *range_m = if target { position_m * obliquity } else { background_m };
+    }
 }

@@ -1,6 +1,7 @@
 //! The converter's integral non-linearity.
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
+use crate::widest::widest;
 use std::f64::consts::TAU;
 
 /// Periods from which a search starts: those of the converter's bits.
@@ -29,12 +30,13 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let (pedestal_dn, values) = (exposure.pixels.pedestal_dn, [values[0], values[1], values[2]]);
-    // With the widest registers that the machine has.
-    pulp::Arch::new().dispatch(|| {
-        for signal in &mut exposure.signal_dn {
-            let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / values[2]);
-            *signal += values[0] * cosine + values[1] * sine;
+    let (pedestal_dn, cosine_dn, sine_dn, period_dn) =
+        (exposure.pixels.pedestal_dn, values[0], values[1], values[2]);
+    let signals: &mut [f64] = &mut exposure.signal_dn;
+    widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, period_dn: f64) {
+        for signal in signals {
+            let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / period_dn);
+            *signal += cosine_dn * cosine + sine_dn * sine;
         }
     });
 }

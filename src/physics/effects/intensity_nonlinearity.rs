@@ -2,6 +2,7 @@
 
 use crate::physics::powers::power;
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::widest::widest;
 
 /// Quadratic and cubic part, relative to the linear one at full scale; and by how much the exponent of a response that is a power of the
 /// light differs from 1 (the gamma of cameras and projectors: 2.2 is 1.2).
@@ -26,20 +27,19 @@ const UNMOVED: f64 = 0.25;
 fn act(values: &[f64], exposure: &mut Exposure) {
     let full_scale_dn = exposure.pixels.full_scale_dn;
     let (quadratic, cubic, exponent) = (values[0], values[1], values[2]);
-    // With the widest registers that the machine has.
-    let arch = pulp::Arch::new();
+    let signals: &mut [f64] = &mut exposure.signal_dn;
     if exponent != 0.0 {
-        let unmoved_dn = UNMOVED * full_scale_dn;
-        arch.dispatch(|| {
-            for signal in &mut exposure.signal_dn {
+        let (signals, unmoved_dn) = (&mut *signals, UNMOVED * full_scale_dn);
+        widest!((signals: &'a mut [f64], unmoved_dn: f64, exponent: f64) {
+            for signal in signals {
                 // No light is no light by any power.
                 let level = if *signal > 0.0 { *signal / unmoved_dn } else { 1.0 };
                 *signal *= power(level, exponent);
             }
         });
     }
-    arch.dispatch(|| {
-        for signal in &mut exposure.signal_dn {
+    widest!((signals: &'a mut [f64], full_scale_dn: f64, quadratic: f64, cubic: f64) {
+        for signal in signals {
             let share = *signal / full_scale_dn;
             *signal += *signal * share * (quadratic + cubic * share);
         }

@@ -2,6 +2,7 @@
 
 use crate::physics::powers::{ln, power};
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::widest::widest;
 
 /// Phase a factor of e in amplitude, at the reference; in proportion to the logarithm of the amplitude (0), to the amplitude itself (1), or to one
 /// over it (-1) or its root (-0.5).
@@ -24,13 +25,24 @@ const REFERENCE_DN: f64 = 300.0;
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let (rad, exponent) = (values[0], values[1]);
-    let moved = exposure.phase_rad.iter_mut().zip(&exposure.amplitude_dn);
-    // With the widest registers that the machine has. No amplitude has no phase that could move.
-    pulp::Arch::new().dispatch(|| {
-        for (phase, &amplitude) in moved {
-            let level = if amplitude > 0.0 { amplitude / REFERENCE_DN } else { 1.0 };
-            let moved = if exponent == 0.0 { ln(level) } else { (power(level, exponent) - 1.0) / exponent };
-            *phase += rad * moved;
-        }
-    });
+    let (phases, amplitudes): (&mut [f64], &[f64]) = (&mut exposure.phase_rad, &exposure.amplitude_dn);
+    if exponent == 0.0 {
+        widest!((phases: &'a mut [f64], amplitudes: &'a [f64], rad: f64) {
+            for (phase, &amplitude) in phases.iter_mut().zip(amplitudes) {
+                *phase += rad * ln(level(amplitude));
+            }
+        });
+    } else {
+        widest!((phases: &'a mut [f64], amplitudes: &'a [f64], rad: f64, exponent: f64) {
+            for (phase, &amplitude) in phases.iter_mut().zip(amplitudes) {
+                *phase += rad * (power(level(amplitude), exponent) - 1.0) / exponent;
+            }
+        });
+    }
+}
+
+/// An amplitude over that at which nothing is added. No amplitude has no phase that could move.
+#[inline(always)]
+fn level(amplitude_dn: f64) -> f64 {
+    if amplitude_dn > 0.0 { amplitude_dn / REFERENCE_DN } else { 1.0 }
 }

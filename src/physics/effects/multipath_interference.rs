@@ -1,8 +1,8 @@
 //! Light that comes back by a longer way too.
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
-use crate::units::phase_rad;
-use std::sync::Arc;
+use crate::units;
+use crate::widest::widest;
 
 /// A second return by way of a wall that stands beside the path of the light, at the same distance all along: out directly, back by the
 /// wall's mirror image, √(d² + 4 L²) for a target at d. Its amplitude relative to the direct one is the parameter, were the wall close,
@@ -28,22 +28,47 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     if share == 0.0 {
         return;
     }
-    let pixels = Arc::clone(&exposure.pixels);
+    let is_constant = values[2] > 0.5;
     let count = exposure.range_m.len();
-    let (mut amplitudes, mut phases) = (vec![0.0; count], vec![0.0; count]);
-    let signal_dn: &mut [f64] = &mut exposure.signal_dn;
-    for pixel in (0..count).filter(|&pixel| pixels.target[pixel]) {
-        let range_m = exposure.range_m[pixel];
-        let (back_m, part) = if values[2] > 0.5 {
-            (range_m + 2.0 * wall_m, share * (range_m / (range_m + wall_m)).powi(2))
-        } else {
-            let back_m = (range_m * range_m + 4.0 * wall_m * wall_m).sqrt();
-            (back_m, share * range_m / back_m)
+    let (mut amplitudes_dn, mut phases_rad) = (vec![0.0; count], vec![0.0; count]);
+    {
+        let (frequency_hz, target) = (exposure.frequency_hz, &exposure.pixels.target[..]);
+        let direct = Direct {
+            range_m: &exposure.range_m,
+            phase_rad: &exposure.phase_rad,
+            amplitude_dn: &exposure.amplitude_dn,
+            constant_dn: &exposure.constant_dn,
         };
-        amplitudes[pixel] = part * exposure.amplitude_dn[pixel];
-        phases[pixel] =
-            exposure.phase_rad[pixel] + phase_rad((back_m - range_m) / 2.0, exposure.frequency_hz);
-        signal_dn[pixel] += part * exposure.constant_dn[pixel];
+        let signals_dn: &mut [f64] = &mut exposure.signal_dn;
+        let (amplitudes_dn, phases_rad) = (&mut amplitudes_dn[..], &mut phases_rad[..]);
+        widest!((direct: Direct<'a>, target: &'a [bool], share: f64, wall_m: f64, is_constant: bool, frequency_hz: f64,
+                 signals_dn: &'a mut [f64], amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
+            let light = direct.amplitude_dn.iter().zip(direct.constant_dn);
+            let ways = direct.range_m.iter().zip(direct.phase_rad).zip(target).zip(light);
+            let back = signals_dn.iter_mut().zip(amplitudes_dn).zip(phases_rad);
+            for ((((range_m, phase_rad), is_target), (amplitude, constant)), ((signal, of_path), phase_of_path)) in ways.zip(back) {
+                let (back_m, part) = if is_constant {
+                    let nearer = range_m / (range_m + wall_m);
+                    (range_m + 2.0 * wall_m, share * (nearer * nearer))
+                } else {
+                    let back_m = (range_m * range_m + 4.0 * wall_m * wall_m).sqrt();
+                    (back_m, share * range_m / back_m)
+                };
+                // Light that comes by the wall goes to the target.
+                let part = if *is_target { part } else { 0.0 };
+                *of_path = part * amplitude;
+                *phase_of_path = phase_rad + units::phase_rad((back_m - range_m) / 2.0, frequency_hz);
+                *signal += part * constant;
+            }
+        });
     }
-    exposure.add_path(&amplitudes, &phases.into());
+    exposure.add_path(&amplitudes_dn, &phases_rad.into());
+}
+
+/// The light that comes directly, a value a pixel each.
+struct Direct<'a> {
+    range_m: &'a [f64],
+    phase_rad: &'a [f64],
+    amplitude_dn: &'a [f64],
+    constant_dn: &'a [f64],
 }

@@ -1,0 +1,42 @@
+//! Loops over pixels with the widest registers that the machine has.
+
+/// Does the work of a block with the widest registers that the machine has. The block knows the variables that are named before it, with their types, and
+/// nothing else; what it calls must be `#[inline(always)]`, and closures small. Without fused operations the bits are the same on all machines.
+///
+/// A closure that is given to `pulp` does not do: the compiler need not put it into the function that is made for these registers, and as a rule does not.
+macro_rules! widest {
+    (($($name:ident: $type:ty),+ $(,)?) $work:block) => {{
+        struct Work<'a> {
+            $($name: $type),+
+        }
+        impl<'a> pulp::NullaryFnOnce for Work<'a> {
+            type Output = ();
+
+            #[inline(always)]
+            fn call(self) {
+                let Self { $($name),+ } = self;
+                $work
+            }
+        }
+        pulp::Arch::new().dispatch(Work { $($name),+ });
+    }};
+}
+
+pub(crate) use widest;
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_work_is_done() {
+        let (mut sums, values, factor) = (vec![1.0; 37], vec![2.0; 37], 3.0);
+        {
+            let (sums, values) = (&mut sums[..], &values[..]);
+            widest!((sums: &'a mut [f64], values: &'a [f64], factor: f64) {
+                for (sum, value) in sums.iter_mut().zip(values) {
+                    *sum += factor * value;
+                }
+            });
+        }
+        assert_eq!(sums, vec![7.0; 37]);
+    }
+}
