@@ -7,10 +7,12 @@ use super::data::Data;
 use super::gram::Whitened;
 use super::jitters::{Frame, Jitters};
 use super::periodogram::Sum;
+use super::shared_variance::SharedVariance;
 use super::swings::{Seen, Swing, Swings};
 use super::tamed::tamed;
 use super::waves::{Wave, Waves};
 use super::white::White;
+use std::sync::LazyLock;
 
 /// Which samples share an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -328,45 +330,19 @@ fn inform(informed: &mut [f64; 4], sums: &[Sum]) {
 }
 
 fn add(curve: &mut [f64; STEPS], mode: usize, sums: &[Sum]) {
-    let heard: Vec<Sum> = sums.iter().filter(|sum| sum.1 > 0.0).copied().collect();
-    for (step, evidence) in curve.iter_mut().enumerate() {
-        let variance = variance(mode, step as f64);
-        *evidence += heard.chunks(TOGETHER).map(|some| of_shared_variance(variance, some)).sum::<f64>();
+    let clusters = SharedVariance::of(sums);
+    for (evidence, variance) in curve.iter_mut().zip(VARIANCES[mode]) {
+        *evidence += clusters.evidence(variance);
     }
 }
 
-/// Clusters whose determinants are multiplied before their logarithm is taken: a determinant is no more than 10^15.
-const TOGETHER: usize = 8;
-
-/// [`of_variance`](super::evidence::of_variance), summed over `clusters`.
-fn of_shared_variance(variance: f64, clusters: &[(f64, f64)]) -> f64 {
-    let (mut square, mut determinant) = (0.0, 1.0);
-    for (score, information) in clusters {
-        let share = 1.0 + variance * information;
-        square += score * score / share;
-        determinant *= share;
-    }
-    0.5 * (variance * square - determinant.ln())
-}
+/// Variances of all modes, step by step.
+static VARIANCES: LazyLock<[[f64; STEPS]; MODES.len()]> =
+    LazyLock::new(|| std::array::from_fn(|mode| std::array::from_fn(|step| variance(mode, step as f64))));
 
 #[cfg(test)]
 mod tests {
-    use super::super::evidence::of_variance;
     use super::*;
-
-    #[test]
-    fn clusters_together_are_clusters_one_by_one() {
-        let clusters: Vec<(f64, f64)> =
-            (0..TOGETHER).map(|n| (f64::from(n as u32) - 2.5, 10f64.powi(3 * n as i32 - 8))).collect();
-        for variance in [1e-9, 0.3, 1e4] {
-            let one_by_one: f64 = clusters.iter().map(|&(s, i)| of_variance(variance, s, i)).sum();
-            let together = of_shared_variance(variance, &clusters);
-            assert!(
-                (together - one_by_one).abs() < 1e-12 * one_by_one.abs().max(1.0),
-                "{together}, {one_by_one}"
-            );
-        }
-    }
 
     #[test]
     fn what_is_seen_in_a_few_frames_raises_columns_of_these() {

@@ -6,7 +6,7 @@ use super::acting::Acting;
 use super::columns::Frame;
 use super::ranges::Ranges;
 use crate::frames::Geometry;
-use crate::physics::{Moment, Pixels, cos_sin};
+use crate::physics::{Moment, Pixels, cos_sin, ln};
 use crate::units::phase_rad;
 use crate::widest::widest;
 use std::f64::consts::TAU;
@@ -202,8 +202,7 @@ pub const COORDINATES: [Coordinate; 11] = [
         name: "row",
         columns: |_| 3 * 2 * CHANGES.len(),
         fill: |view| {
-            let height = view.ranges.geometry.height;
-            by_line(view, |pixel| along(view.ranges.geometry.row_column(pixel).0, height))
+            by_line(view, view.ranges.geometry.height, |pixel| view.ranges.geometry.row_column(pixel).0)
         },
         shape: line_shape,
     },
@@ -211,8 +210,7 @@ pub const COORDINATES: [Coordinate; 11] = [
         name: "column",
         columns: |_| 3 * 2 * CHANGES.len(),
         fill: |view| {
-            let width = view.ranges.geometry.width;
-            by_line(view, |pixel| along(view.ranges.geometry.row_column(pixel).1, width))
+            by_line(view, view.ranges.geometry.width, |pixel| view.ranges.geometry.row_column(pixel).1)
         },
         shape: line_shape,
     },
@@ -221,7 +219,7 @@ pub const COORDINATES: [Coordinate; 11] = [
         name: "amplitude",
         columns: |_| 3 * LIGHTS,
         fill: |view| {
-            let light: Vec<f64> = amplitude_dn(view).into_iter().map(|dn| dn.max(1e-6).ln()).collect();
+            let light: Vec<f64> = amplitude_dn(view).into_iter().map(|dn| ln(dn.max(1e-6))).collect();
             let ends = view.ranges.ln_amplitude;
             by_pixel(view, LIGHTS, |pixel| match view.tells(pixel) {
                 true => hats(within(light[pixel], ends), LIGHTS).to_vec(),
@@ -317,7 +315,7 @@ fn phase_shape(_: &Ranges, column: usize) -> String {
     }
 }
 
-fn by_line(view: &View, along: impl Fn(usize) -> f64) -> Acting {
+fn by_line(view: &View, lines: usize, line: impl Fn(usize) -> usize) -> Acting {
     let moment = view.moment;
     let changes = [
         moment.velocity_m_s / view.ranges.speed_m_s.max(1e-9),
@@ -325,7 +323,7 @@ fn by_line(view: &View, along: impl Fn(usize) -> f64) -> Acting {
         2.0 * within(moment.position_m, view.ranges.position_m) - 1.0,
         2.0 * moment.time_s / view.ranges.duration_s[view.take].max(1e-9) - 1.0,
     ];
-    let places: Vec<f64> = (0..view.frame.base.len()).map(along).collect();
+    let places: Vec<f64> = (0..view.frame.base.len()).map(|pixel| along(line(pixel), lines)).collect();
     let mut columns = Acting::default();
     for number in 0..MODES.len() {
         let base = mode(view, number);

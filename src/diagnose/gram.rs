@@ -9,6 +9,7 @@ use super::encoder_noise::jitter;
 use super::in_order::joined;
 use super::noise::Noise;
 use super::set_errors::{self, Jitter, SetErrors, explained, of_reading};
+use super::whiten::whiten;
 use crate::widest::widest;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
@@ -64,28 +65,6 @@ const CHUNKS: usize = 16;
 const CHUNK: (usize, usize) = (8, 64);
 /// So many errors of sets, or those of one set, are freed of the pixels' own numbers at a time.
 const TOGETHER: usize = 64;
-/// Residuals beyond so many standard deviations count as that many.
-const WINSOR: f64 = 4.0;
-
-/// Roots of the weights of a frame's pixels, 0 where a sample does not count, and the residual times them.
-pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise) -> (Vec<f64>, Vec<f64>) {
-    let pixels = data.pixels();
-    let signal = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
-    let (mut roots, mut residuals) = (vec![0.0; pixels], vec![0.0; pixels]);
-    {
-        let (roots, residuals) = (&mut roots[..], &mut residuals[..]);
-        widest!((signal: &'a [f32], base: &'a [f64], noise: Noise, roots: &'a mut [f64], residuals: &'a mut [f64]) {
-            for (((&measured, &base), root), residual) in signal.iter().zip(base).zip(roots).zip(residuals) {
-                let counts = !measured.is_nan();
-                *root = if counts { noise.weight(base).sqrt() } else { 0.0 };
-                // What is no number stays none.
-                let beyond = *root * (f64::from(measured) - base);
-                *residual = if *root == 0.0 { 0.0 } else { beyond.clamp(-WINSOR, WINSOR) };
-            }
-        });
-    }
-    (roots, residuals)
-}
 
 impl Gram {
     fn empty(pixels: usize, columns: &[usize], sets: usize, jitter: Jitter) -> Self {

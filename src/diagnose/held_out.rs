@@ -6,9 +6,9 @@
 use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::fit::{Fit, fit, improved, settled};
-use super::gram::whiten;
 use super::jitters::{self, Jitters};
 use super::noise::Noise;
+use super::whiten::whiten;
 use crate::spec::SCHEMES;
 use crate::units::phase_rad;
 use num_complex::Complex64;

@@ -49,6 +49,7 @@ mod search;
 mod searched;
 mod set_errors;
 mod settle;
+mod shared_variance;
 mod simpler;
 mod source;
 mod start;
@@ -62,6 +63,7 @@ mod vote;
 mod watchdog;
 mod waves;
 mod white;
+mod whiten;
 
 pub use alone::Alone;
 pub use camera::camera_with;

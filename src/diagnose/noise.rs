@@ -4,10 +4,10 @@
 use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::fit::Fit;
-use super::gram::whiten;
 use super::in_order::joined;
 use super::random::CLUSTER_NATS;
 use super::set_errors::Jitter;
+use super::whiten::whiten;
 use nalgebra::{Matrix3, Vector3};
 
 /// Variance of the noise at a signal, DN², and what frames are off by at random.

@@ -4,6 +4,7 @@ use super::data::Data;
 use super::fit::Fit;
 use super::gram::Whitened;
 use super::ranges::Ranges;
+use crate::physics::Moment;
 use crate::units::phase_rad;
 use std::f64::consts::TAU;
 
@@ -23,16 +24,26 @@ struct Axis {
     name: &'static str,
     bins: usize,
     /// The place of a sample, 0 … 1.
-    place: fn(&Sample) -> f64,
+    place: Place,
     /// The coordinate at a place.
     at: fn(&Ranges, f64) -> f64,
 }
 
+/// What a place hangs on.
+enum Place {
+    /// The frame alone.
+    Frame(fn(&Moment, &Ranges) -> f64),
+    /// The pixel alone.
+    Pixel(fn(usize, &Ranges) -> f64),
+    /// Both.
+    Sample(fn(&Sample) -> f64),
+}
+
 struct Sample<'a> {
-    data: &'a Data,
+    moment: &'a Moment,
     ranges: &'a Ranges,
     fit: &'a Fit,
-    whitened: &'a Whitened<'a>,
+    base_dn: f64,
     pixel: usize,
 }
 
@@ -42,75 +53,90 @@ const AXES: [Axis; 8] = [
     Axis {
         name: "phase, turns",
         bins: BINS,
-        place: |s| {
-            let moment = &s.data.takes[s.whitened.take].moments[s.whitened.index];
-            let range_m = moment.commanded_m() * s.fit.pixels.obliquity[s.pixel];
-            let phase = phase_rad(range_m, moment.frequency_hz) + s.fit.pixels.phase_rad[s.pixel];
-            ((moment.step_rad + moment.offset_rad - phase) / TAU).rem_euclid(1.0)
-        },
+        place: Place::Sample(|s| {
+            let range_m = s.moment.commanded_m() * s.fit.pixels.obliquity[s.pixel];
+            let phase = phase_rad(range_m, s.moment.frequency_hz) + s.fit.pixels.phase_rad[s.pixel];
+            ((s.moment.step_rad + s.moment.offset_rad - phase) / TAU).rem_euclid(1.0)
+        }),
         at: |_, place| place,
     },
     Axis {
         name: "position, m",
         bins: BINS,
-        place: |s| {
-            (moment(s).commanded_m() - s.ranges.position_m.0)
-                / (s.ranges.position_m.1 - s.ranges.position_m.0)
-        },
+        place: Place::Frame(|moment, ranges| {
+            let (low, high) = ranges.position_m;
+            (moment.commanded_m() - low) / (high - low)
+        }),
         at: |r, place| r.position_m.0 + place * (r.position_m.1 - r.position_m.0),
     },
     Axis {
         name: "velocity, m/s",
         bins: 17,
-        place: |s| 0.5 + 0.5 * moment(s).velocity_m_s / s.ranges.speed_m_s.max(1e-9),
+        place: Place::Frame(|moment, ranges| 0.5 + 0.5 * moment.velocity_m_s / ranges.speed_m_s.max(1e-9)),
         at: |r, place| (2.0 * place - 1.0) * r.speed_m_s,
     },
     Axis {
         name: "frame of a set",
         bins: 64,
-        place: |s| (moment(s).frame as f64 + 0.5) / 64.0,
+        place: Place::Frame(|moment, _| (moment.frame as f64 + 0.5) / 64.0),
         at: |_, place| (place * 64.0).floor(),
     },
     Axis {
         name: "time, s",
         bins: BINS,
-        place: |s| moment(s).time_s / longest_s(s.ranges),
+        place: Place::Frame(|moment, ranges| moment.time_s / longest_s(ranges)),
         at: |r, place| place * longest_s(r),
     },
     Axis {
         name: "row",
         bins: 64,
-        place: |s| ((s.pixel / s.ranges.geometry.width) as f64 + 0.5) / s.ranges.geometry.height as f64,
+        place: Place::Pixel(|pixel, ranges| {
+            ((pixel / ranges.geometry.width) as f64 + 0.5) / ranges.geometry.height as f64
+        }),
         at: |r, place| place * r.geometry.height as f64,
     },
     Axis {
         name: "column",
         bins: 64,
-        place: |s| ((s.pixel % s.ranges.geometry.width) as f64 + 0.5) / s.ranges.geometry.width as f64,
+        place: Place::Pixel(|pixel, ranges| {
+            ((pixel % ranges.geometry.width) as f64 + 0.5) / ranges.geometry.width as f64
+        }),
         at: |r, place| place * r.geometry.width as f64,
     },
     Axis {
         name: "signal, DN",
         bins: BINS,
-        place: |s| s.whitened.frame.base[s.pixel] / s.ranges.full_scale_dn,
+        place: Place::Sample(|s| s.base_dn / s.ranges.full_scale_dn),
         at: |r, place| place * r.full_scale_dn,
     },
 ];
+
+impl Axis {
+    /// The bin of a place.
+    fn bin(&self, place: f64) -> usize {
+        ((place * self.bins as f64) as usize).min(self.bins - 1)
+    }
+}
 
 /// Duration of the longest recording, s.
 fn longest_s(ranges: &Ranges) -> f64 {
     ranges.duration_s.iter().copied().fold(1e-9, f64::max)
 }
 
-fn moment<'a>(sample: &Sample<'a>) -> &'a crate::physics::Moment {
-    &sample.data.takes[sample.whitened.take].moments[sample.whitened.index]
+/// Sum of w r, and sum of w.
+type Sum = (f64, f64);
+
+fn add(sum: &mut Sum, (score, weight): Sum) {
+    *sum = (sum.0 + score, sum.1 + weight);
 }
 
 /// Weighted sums of residuals.
 #[derive(Debug, Clone, Default)]
 pub struct Profiles {
-    /// `[axis][bin]`: sum of w r, sum of w.
-    sums: Vec<Vec<(f64, f64)>>,
+    /// `[axis][bin]`, of axes whose places do not hang on the pixel alone.
+    sums: Vec<Vec<Sum>>,
+    /// `[pixel]`, of those that are looked at.
+    of_pixels: Vec<Sum>,
     /// `[pixel]`: sum of squares of the whitened residual, and samples.
     pixels: Vec<(f64, usize)>,
 }
@@ -132,6 +158,9 @@ impl Profiles {
             sums.resize(axis.bins, (0.0, 0.0));
         }
         self.pixels.resize(data.pixels(), (0.0, 0));
+        self.of_pixels.resize(data.pixels(), (0.0, 0.0));
+        let moment = &data.takes[whitened.take].moments[whitened.index];
+        let mut all = (0.0, 0.0);
         for (pixel, (&root, &residual)) in whitened.roots.iter().zip(whitened.residual).enumerate() {
             if root == 0.0 {
                 continue;
@@ -141,12 +170,19 @@ impl Profiles {
             if !(ranges.is_still || data.target[pixel]) {
                 continue;
             }
-            let sample = Sample { data, ranges, fit, whitened, pixel };
+            let sum = (root * residual, root * root);
+            add(&mut all, sum);
+            add(&mut self.of_pixels[pixel], sum);
+            let sample = Sample { moment, ranges, fit, base_dn: whitened.frame.base[pixel], pixel };
             for (sums, axis) in self.sums.iter_mut().zip(&AXES) {
-                let bin = ((axis.place)(&sample) * axis.bins as f64) as usize;
-                let sum = &mut sums[bin.min(axis.bins - 1)];
-                sum.0 += root * residual;
-                sum.1 += root * root;
+                if let Place::Sample(place) = axis.place {
+                    add(&mut sums[axis.bin(place(&sample))], sum);
+                }
+            }
+        }
+        for (sums, axis) in self.sums.iter_mut().zip(&AXES) {
+            if let Place::Frame(place) = axis.place {
+                add(&mut sums[axis.bin(place(moment, ranges))], all);
             }
         }
         self
@@ -157,10 +193,8 @@ impl Profiles {
         if self.sums.is_empty() {
             return other;
         }
-        for (sum, other) in self.sums.iter_mut().flatten().zip(other.sums.into_iter().flatten()) {
-            sum.0 += other.0;
-            sum.1 += other.1;
-        }
+        let sums = self.sums.iter_mut().flatten().zip(other.sums.into_iter().flatten());
+        sums.chain(self.of_pixels.iter_mut().zip(other.of_pixels)).for_each(|(sum, other)| add(sum, other));
         for (sum, other) in self.pixels.iter_mut().zip(other.pixels) {
             sum.0 += other.0;
             sum.1 += other.1;
@@ -170,8 +204,14 @@ impl Profiles {
 
     /// The curves.
     pub fn curves(&self, ranges: &Ranges) -> Vec<Profile> {
-        let curve = |(axis, sums): (&Axis, &Vec<(f64, f64)>)| {
-            let point = |(bin, &(score, weight)): (usize, &(f64, f64))| Point {
+        let curve = |(axis, sums): (&Axis, &Vec<Sum>)| {
+            let mut sums = sums.clone();
+            if let Place::Pixel(place) = axis.place {
+                for (pixel, &sum) in self.of_pixels.iter().enumerate() {
+                    add(&mut sums[axis.bin(place(pixel, ranges))], sum);
+                }
+            }
+            let point = |(bin, &(score, weight)): (usize, &Sum)| Point {
                 at: (axis.at)(ranges, (bin as f64 + 0.5) / axis.bins as f64),
                 residual_dn: score / weight,
                 sigma_dn: weight.sqrt().recip(),

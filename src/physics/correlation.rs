@@ -119,7 +119,8 @@ impl Waveform {
             let (relative, phases) = (&mut relative[..], &phase_rad[..]);
             let (number, amplitude, begin_rad) =
                 (f64::from(harmonic.number), harmonic.amplitude, harmonic.phase_rad);
-            widest!((relative: &'a mut [f64], phases: &'a [f64], angle_rad: f64, number: f64, amplitude: f64, begin_rad: f64) {
+            widest!((relative: &'a mut [f64], phases: &'a [f64], angle_rad: f64,
+                     number: f64, amplitude: f64, begin_rad: f64) {
                 for (relative, phase_rad) in relative.iter_mut().zip(phases) {
                     *relative += amplitude * cos_sin(number * (angle_rad - phase_rad) + begin_rad).0;
                 }

@@ -229,7 +229,8 @@ impl Exposure {
         let (pixels, frequency_hz) = (&*self.pixels, self.frequency_hz);
         let (mut ranges, mut phases) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
         let (ranges_m, phases_rad) = (&mut ranges[..], &mut phases[..]);
-        widest!((pixels: &'a Pixels, position_m: f64, frequency_hz: f64, ranges_m: &'a mut [f64], phases_rad: &'a mut [f64]) {
+        widest!((pixels: &'a Pixels, position_m: f64, frequency_hz: f64,
+                 ranges_m: &'a mut [f64], phases_rad: &'a mut [f64]) {
             look_at(pixels, position_m, ranges_m);
             for ((phase, range_m), own_rad) in phases_rad.iter_mut().zip(ranges_m).zip(&pixels.phase_rad) {
                 *phase = phase_rad(*range_m, frequency_hz) + own_rad;
@@ -244,10 +245,12 @@ impl Exposure {
         let (pixels, lit) = (&*self.pixels, f64::from(u8::from(self.moment.lit)));
         let (mut amplitudes, mut constants) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
         let (amplitude_dn, constant_dn) = (&mut amplitudes[..], &mut constants[..]);
-        widest!((pixels: &'a Pixels, position_m: f64, lit: f64, amplitude_dn: &'a mut [f64], constant_dn: &'a mut [f64]) {
+        widest!((pixels: &'a Pixels, position_m: f64, lit: f64,
+                 amplitude_dn: &'a mut [f64], constant_dn: &'a mut [f64]) {
             look_at(pixels, position_m, amplitude_dn);
             let own = pixels.amplitude_1m_dn.iter().zip(&pixels.constant_1m_dn);
-            for ((range_m, constant), (amplitude_1m, constant_1m)) in amplitude_dn.iter_mut().zip(constant_dn).zip(own) {
+            let light = amplitude_dn.iter_mut().zip(constant_dn);
+            for ((range_m, constant), (amplitude_1m, constant_1m)) in light.zip(own) {
                 let share = lit / (*range_m * *range_m);
                 *range_m = amplitude_1m * share;
                 *constant = constant_1m * share;
@@ -271,10 +274,10 @@ impl Exposure {
         {
             let (signals, relative) = (&mut signals[..], waveform.relative());
             let (own, ambient, amplitude) = (&*self.constant_dn, &*self.ambient_dn, &*self.amplitude_dn);
-            widest!((signals: &'a mut [f64], own: &'a [f64], ambient: &'a [f64], amplitude: &'a [f64], relative: &'a [f64]) {
-                let offsets = own.iter().zip(ambient);
-                let varying = amplitude.iter().zip(relative);
-                for ((signal, (own, ambient)), (dn, relative)) in signals.iter_mut().zip(offsets).zip(varying) {
+            widest!((signals: &'a mut [f64], own: &'a [f64], ambient: &'a [f64],
+                     amplitude: &'a [f64], relative: &'a [f64]) {
+                let parts = own.iter().zip(ambient).zip(amplitude.iter().zip(relative));
+                for (signal, ((own, ambient), (dn, relative))) in signals.iter_mut().zip(parts) {
                     *signal = own + ambient + dn * relative;
                 }
             });

@@ -35,6 +35,7 @@ pub use exposure::{Before, Exposure, Included, Moment};
 pub use formula::{Formula, Target};
 pub use per_pixel::PerPixel;
 pub use pixels::Pixels;
+pub use powers::ln;
 pub use pulse::Pulse;
 pub use scene::{Object, Scene, Surface};
 pub use sensor::{Light, Sensor};

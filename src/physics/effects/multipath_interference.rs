@@ -41,12 +41,14 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         };
         let signals_dn: &mut [f64] = &mut exposure.signal_dn;
         let (amplitudes_dn, phases_rad) = (&mut amplitudes_dn[..], &mut phases_rad[..]);
-        widest!((direct: Direct<'a>, target: &'a [bool], share: f64, wall_m: f64, is_constant: bool, frequency_hz: f64,
-                 signals_dn: &'a mut [f64], amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
+        widest!((direct: Direct<'a>, target: &'a [bool], share: f64, wall_m: f64,
+                 is_constant: bool, frequency_hz: f64, signals_dn: &'a mut [f64],
+                 amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
             let light = direct.amplitude_dn.iter().zip(direct.constant_dn);
             let ways = direct.range_m.iter().zip(direct.phase_rad).zip(target).zip(light);
             let back = signals_dn.iter_mut().zip(amplitudes_dn).zip(phases_rad);
-            for ((((range_m, phase_rad), is_target), (amplitude, constant)), ((signal, of_path), phase_of_path)) in ways.zip(back) {
+            for (way, ((signal, of_path), phase_of_path)) in ways.zip(back) {
+                let (((range_m, phase_rad), is_target), (amplitude, constant)) = way;
                 let (back_m, part) = if is_constant {
                     let nearer = range_m / (range_m + wall_m);
                     (range_m + 2.0 * wall_m, share * (nearer * nearer))
