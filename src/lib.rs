@@ -42,7 +42,7 @@
 //! | [`sweep`] | precision sweeps: errors of the phase over all vectors, against area |
 //! | [`report`] | tables and pictures |
 //! | [`artifact`], [`fields`], [`problem`] | generated files, TOML fields, refusals |
-//! | `widest` | loops over pixels with the widest registers that the machine has |
+//! | [`widest`] | loops over pixels with the widest registers that the machine has |
 //! | [`cli`] | one file a command |
 //!
 //! # What is absent on purpose
@@ -81,4 +81,4 @@ pub mod sweep;
 pub mod synthesis;
 pub mod time_domain;
 pub mod units;
-mod widest;
+pub mod widest;
