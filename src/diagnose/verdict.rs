@@ -147,6 +147,18 @@ pub struct Smallest {
     pub unit: &'static str,
 }
 
+impl Remainder {
+    /// What the answer leaves: where nothing is asserted that would explain a part of the mismatch, all of it, where it lives.
+    fn of(judgement: &Judgement) -> Self {
+        let (share, places) = match judgement.verdict {
+            Verdict::Clean => (judgement.remainder, &[][..]),
+            Verdict::Unexplained => (1.0, &judgement.places[..]),
+            Verdict::Explained | Verdict::PartlyExplained => (judgement.remainder, &judgement.left[..]),
+        };
+        Self { share, coordinate: places.first().map(|place| place.coordinate) }
+    }
+}
+
 /// Diagnoses `data`.
 ///
 /// What the recordings themselves say of mask and sets comes first: pixels that see something else than the mask has, and sets that
@@ -235,10 +247,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
                 })
                 .collect(),
         },
-        remainder: Remainder {
-            share: judgement.remainder,
-            coordinate: judgement.left.first().filter(|_| !is_clean).map(|place| place.coordinate),
-        },
+        remainder: Remainder::of(judgement),
         next_recording: next(data, judgement)
             .into_iter()
             .map(|next| NextRecording {
