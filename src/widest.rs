@@ -1,9 +1,11 @@
 //! Loops over pixels with the widest registers that the machine has.
 
-/// Does the work of a block with the widest registers that the machine has. The block knows the variables that are named before it, with their types, and
-/// nothing else; what it calls must be `#[inline(always)]`, and closures small. Without fused operations the bits are the same on all machines.
+/// Does the work of a block with the widest registers that the machine has. Of variables the block knows those that are named before it, with their types; one
+/// of them at least is borrowed, for `'a`. Functions of this crate that it calls must be `#[inline(always)]`. Without fused operations, which the compiler never
+/// makes by itself, the bits are the same on all machines.
 ///
-/// A closure that is given to `pulp` does not do: the compiler need not put it into the function that is made for these registers, and as a rule does not.
+/// A closure that is given to `pulp` does not do: the compiler need not put it into the function that is made for these registers, and as a rule does not. Nor
+/// do closures within the block that are not small.
 macro_rules! widest {
     (($($name:ident: $type:ty),+ $(,)?) $work:block) => {{
         struct Work<'a> {

@@ -41,9 +41,13 @@ fn row(amplitude_dn: &[f64]) -> Pixels {
 
 /// Frame number `frame` of four of a still target at 1 m: a row of pixels with these amplitudes.
 fn still_frame(amplitude_dn: &[f64], effects: Vec<Active>, frame: usize) -> Vec<f64> {
+    frame_of(row(amplitude_dn), effects, frame)
+}
+
+/// The same of `pixels`.
+fn frame_of(pixels: Pixels, effects: Vec<Active>, frame: usize) -> Vec<f64> {
     let included = Included { axial_motion: false, inverse_square_falloff: false };
-    let pixels = Arc::new(row(amplitude_dn));
-    let chain = Chain::new(pixels, Correlation::sinusoidal(), included, effects);
+    let chain = Chain::new(Arc::new(pixels), Correlation::sinusoidal(), included, effects);
     let moment = Moment {
         set: 0,
         frame,
@@ -424,6 +428,13 @@ fn multipath(make: Make, findings: &mut Findings) {
         findings.about("82 mrad", e.mean(), 0.082_291, 0.001);
         findings.below("no dependence on phase", e.rest(&[]), 1e-9);
     }
+    // Light that comes by the wall goes to the target: a pixel that sees the background beside it gets none.
+    let frame = |effects: Vec<Active>| {
+        let pixels = Pixels { target: vec![true, false], ..row(&[A; 2]) };
+        frame_of(pixels, effects, 0)
+    };
+    let (with, without) = (frame(make("multipath_interference", &settings)), frame(Vec::new()));
+    findings.below("nothing beside the target", (with[1] - without[1]).abs(), 1e-12);
 }
 
 fn illumination_baseline(make: Make, findings: &mut Findings) {

@@ -234,7 +234,7 @@ fn times(roots: &[f64], pattern: &[f64], product: &mut [f32]) -> f64 {
 /// Maxima that are looked for side by side.
 const LANES: usize = 16;
 
-/// Adds what a column has of patterns, times the pixels' own numbers, to its sums.
+/// Adds what a column has of patterns, times the pixels' own numbers, to its sums. Fused where the machine can, but for what does not fill a register.
 struct Add<'a> {
     of: &'a [(Share, usize)],
     values: &'a [f32],
@@ -250,7 +250,6 @@ impl<'a> WithSimd for Add<'a> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { of, values, own, sum, sums } = self;
         let pixels = sum.len() / OWN;
-        // Closures would not be made with these registers.
         let mut parts = Vec::with_capacity(of.len());
         let count = pixels / S::F32_LANES;
         for (share, frame) in of {
@@ -268,7 +267,7 @@ impl<'a> WithSimd for Add<'a> {
             for (factor, value, own) in &parts {
                 let value = simd.mul_f32s(*factor, value[at]);
                 for number in 0..OWN {
-                    all[number] = simd.mul_add_f32s(value, own[number][at], all[number]);
+                    all[number] = simd.mul_add_e_f32s(value, own[number][at], all[number]);
                 }
             }
             for (sum, all) in sum.chunks_exact_mut(pixels).zip(all) {
@@ -357,6 +356,8 @@ mod tests {
             }
         }
         block.settle();
+        let Waiting { used, own, shares, .. } = &block.waiting;
+        assert!(*used == 0 && own.is_empty() && shares.is_empty());
         assert!((&block.full - full.lower_triangle()).amax() < ROUNDING * full.amax(), "{many}");
         assert!((&block.mixed - &mixed).amax() < ROUNDING * mixed.amax(), "{many}");
         let is_same = |(a, b): (&DMatrix<f64>, &DMatrix<f64>)| (a - b).amax() < ROUNDING * b.amax();
@@ -380,6 +381,14 @@ mod tests {
     fn a_parameter_may_have_any_unit() {
         for large in [1e-30, 1e25] {
             is_written_out(1, large);
+        }
+        // Whichever pixel shows it.
+        for place in [0, 17, PIXELS - 1] {
+            let (mut pattern, mut product) = (vec![0.0; PIXELS], vec![f32::NAN; PIXELS]);
+            pattern[place] = -1e25;
+            let size = times(&[2.0; PIXELS], &pattern, &mut product);
+            assert_eq!((size, product[place]), (1e25, -2.0));
+            assert!(product.iter().enumerate().all(|(pixel, value)| pixel == place || *value == 0.0));
         }
     }
 }

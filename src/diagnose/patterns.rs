@@ -168,6 +168,7 @@ const LANES: usize = 16;
 
 /// The difference of a `changed` frame from `base`, over the `step` that made it.
 pub fn difference(changed: &[f64], base: &[f64], step: f64) -> Vec<f64> {
+    debug_assert_eq!(changed.len(), base.len());
     let (per, mut differences) = (step.recip(), vec![0.0; base.len()]);
     let all = &mut differences[..];
     widest!((all: &'a mut [f64], changed: &'a [f64], base: &'a [f64], per: f64) {
@@ -321,6 +322,21 @@ mod tests {
                 let mut patterns = Patterns::new(&chain, &base, start.clone(), chain.stations(&start));
                 patterns.other(0, &changed, step, active.effect.place);
                 agrees(active.effect.name, moment, &chain, &changed, step, &patterns.acting);
+            }
+        }
+    }
+
+    /// One value that is another, wherever it stands, is enough; so is one that is no number.
+    #[test]
+    fn a_factor_is_that_of_all_values() {
+        let own: Vec<f64> = (0..37).map(f64::from).collect();
+        let changed: Vec<f64> = own.iter().map(|own| 1.5 * own).collect();
+        assert_eq!(factor(&[(&changed, &own), (&own[..0], &own[..0])]), Some(1.5));
+        for place in [2, 17, 36] {
+            for other in [1.5 * own[place] + 1e-9, f64::NAN] {
+                let mut changed = changed.clone();
+                changed[place] = other;
+                assert_eq!(factor(&[(&changed, &own)]), None, "{place} {other}");
             }
         }
     }

@@ -193,6 +193,24 @@ mod tests {
         assert!(power(false) < 0.97, "{}", power(false));
     }
 
+    /// Phases that turn from one frequency to the next are those of each frequency.
+    #[test]
+    fn neighbouring_frequencies_are_each_by_itself() {
+        let of = |n: usize| {
+            let error = (0.9 * n as f64).sin() + (2.3 * n as f64).cos();
+            (1.0 + 0.058 * n as f64, (error, 1.0 + 0.1 * n as f64))
+        };
+        let group: Vec<(f64, Sum)> = (0..26).map(of).collect();
+        let (low, step) = (0.3, 0.07);
+        let mut powers = [0.0; 100];
+        add_powers(&group, low, step, ANY, &mut powers);
+        for (number, together) in powers.into_iter().enumerate() {
+            let alone = power(&group, low + number as f64 * step);
+            assert!((together - alone).abs() < 1e-9 * alone.max(1.0), "{number}: {together}, not {alone}");
+        }
+        assert!(powers.iter().copied().fold(0.0, f64::max) > 3.0 * powers.iter().sum::<f64>() / 100.0);
+    }
+
     #[test]
     fn a_line_that_is_too_steep_is_none() {
         let line = |n: usize| (0.3 * n as f64 + 1.0).cos();

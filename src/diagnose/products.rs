@@ -1,11 +1,12 @@
 //! The products of rows with each other, in single precision: what a library's matrix product spends on packing such few rows is more than they cost.
+//! Operations are fused where the machine can, so that the last bits are the machine's.
 
 use ndarray::Array2;
 use pulp::{Simd, WithSimd};
 
-/// So many rows are multiplied with as many others at a time: their sums fill the registers.
+/// So many rows are multiplied with as many others at a time: their sums fill half of the widest registers.
 const TILE: usize = 4;
-/// So many samples of all rows stay at hand.
+/// So many samples of a tile's rows stay at hand.
 const PANEL: usize = 1024;
 
 /// The products of all rows of `values`, of so many `pixels` each, with each other.
@@ -57,7 +58,7 @@ impl WithSimd for Products<'_> {
     }
 }
 
-/// The products of rows, as long as each other, with others. Closures would not be made with the machine's widest registers.
+/// The products of rows, as long as each other, with others. It has no closures, as [`widest`](crate::widest) says.
 #[inline(always)]
 fn of_tiles<S: Simd>(simd: S, rows: [&[f32]; TILE], others: [&[f32]; TILE]) -> [[f32; TILE]; TILE] {
     let length = S::as_simd_f32s(rows[0]).0.len();
@@ -71,7 +72,7 @@ fn of_tiles<S: Simd>(simd: S, rows: [&[f32]; TILE], others: [&[f32]; TILE]) -> [
         for row in 0..TILE {
             let value = a[row][at];
             for other in 0..TILE {
-                wide[row][other] = simd.mul_add_f32s(value, b[other][at], wide[row][other]);
+                wide[row][other] = simd.mul_add_e_f32s(value, b[other][at], wide[row][other]);
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::data::Data;
 use super::fit::Fit;
 use super::gram::Whitened;
+use super::periodogram::Sum;
 use super::ranges::Ranges;
 use crate::physics::Moment;
 use crate::units::phase_rad;
@@ -24,13 +25,13 @@ struct Axis {
     name: &'static str,
     bins: usize,
     /// The place of a sample, 0 … 1.
-    place: Place,
+    place: Over,
     /// The coordinate at a place.
     at: fn(&Ranges, f64) -> f64,
 }
 
 /// What a place hangs on.
-enum Place {
+enum Over {
     /// The frame alone.
     Frame(fn(&Moment, &Ranges) -> f64),
     /// The pixel alone.
@@ -53,7 +54,7 @@ const AXES: [Axis; 8] = [
     Axis {
         name: "phase, turns",
         bins: BINS,
-        place: Place::Sample(|s| {
+        place: Over::Sample(|s| {
             let range_m = s.moment.commanded_m() * s.fit.pixels.obliquity[s.pixel];
             let phase = phase_rad(range_m, s.moment.frequency_hz) + s.fit.pixels.phase_rad[s.pixel];
             ((s.moment.step_rad + s.moment.offset_rad - phase) / TAU).rem_euclid(1.0)
@@ -63,7 +64,7 @@ const AXES: [Axis; 8] = [
     Axis {
         name: "position, m",
         bins: BINS,
-        place: Place::Frame(|moment, ranges| {
+        place: Over::Frame(|moment, ranges| {
             let (low, high) = ranges.position_m;
             (moment.commanded_m() - low) / (high - low)
         }),
@@ -72,25 +73,25 @@ const AXES: [Axis; 8] = [
     Axis {
         name: "velocity, m/s",
         bins: 17,
-        place: Place::Frame(|moment, ranges| 0.5 + 0.5 * moment.velocity_m_s / ranges.speed_m_s.max(1e-9)),
+        place: Over::Frame(|moment, ranges| 0.5 + 0.5 * moment.velocity_m_s / ranges.speed_m_s.max(1e-9)),
         at: |r, place| (2.0 * place - 1.0) * r.speed_m_s,
     },
     Axis {
         name: "frame of a set",
         bins: 64,
-        place: Place::Frame(|moment, _| (moment.frame as f64 + 0.5) / 64.0),
+        place: Over::Frame(|moment, _| (moment.frame as f64 + 0.5) / 64.0),
         at: |_, place| (place * 64.0).floor(),
     },
     Axis {
         name: "time, s",
         bins: BINS,
-        place: Place::Frame(|moment, ranges| moment.time_s / longest_s(ranges)),
+        place: Over::Frame(|moment, ranges| moment.time_s / longest_s(ranges)),
         at: |r, place| place * longest_s(r),
     },
     Axis {
         name: "row",
         bins: 64,
-        place: Place::Pixel(|pixel, ranges| {
+        place: Over::Pixel(|pixel, ranges| {
             ((pixel / ranges.geometry.width) as f64 + 0.5) / ranges.geometry.height as f64
         }),
         at: |r, place| place * r.geometry.height as f64,
@@ -98,7 +99,7 @@ const AXES: [Axis; 8] = [
     Axis {
         name: "column",
         bins: 64,
-        place: Place::Pixel(|pixel, ranges| {
+        place: Over::Pixel(|pixel, ranges| {
             ((pixel % ranges.geometry.width) as f64 + 0.5) / ranges.geometry.width as f64
         }),
         at: |r, place| place * r.geometry.width as f64,
@@ -106,7 +107,7 @@ const AXES: [Axis; 8] = [
     Axis {
         name: "signal, DN",
         bins: BINS,
-        place: Place::Sample(|s| s.base_dn / s.ranges.full_scale_dn),
+        place: Over::Sample(|s| s.base_dn / s.ranges.full_scale_dn),
         at: |r, place| place * r.full_scale_dn,
     },
 ];
@@ -123,9 +124,6 @@ fn longest_s(ranges: &Ranges) -> f64 {
     ranges.duration_s.iter().copied().fold(1e-9, f64::max)
 }
 
-/// Sum of w r, and sum of w.
-type Sum = (f64, f64);
-
 fn add(sum: &mut Sum, (score, weight): Sum) {
     *sum = (sum.0 + score, sum.1 + weight);
 }
@@ -133,9 +131,9 @@ fn add(sum: &mut Sum, (score, weight): Sum) {
 /// Weighted sums of residuals.
 #[derive(Debug, Clone, Default)]
 pub struct Profiles {
-    /// `[axis][bin]`, of axes whose places do not hang on the pixel alone.
+    /// `[axis][bin]`: sum of w r, sum of w; zeros of axes whose places hang on the pixel alone.
     sums: Vec<Vec<Sum>>,
-    /// `[pixel]`, of those that are looked at.
+    /// `[pixel]`: the same, of those that are looked at.
     of_pixels: Vec<Sum>,
     /// `[pixel]`: sum of squares of the whitened residual, and samples.
     pixels: Vec<(f64, usize)>,
@@ -175,13 +173,13 @@ impl Profiles {
             add(&mut self.of_pixels[pixel], sum);
             let sample = Sample { moment, ranges, fit, base_dn: whitened.frame.base[pixel], pixel };
             for (sums, axis) in self.sums.iter_mut().zip(&AXES) {
-                if let Place::Sample(place) = axis.place {
+                if let Over::Sample(place) = axis.place {
                     add(&mut sums[axis.bin(place(&sample))], sum);
                 }
             }
         }
         for (sums, axis) in self.sums.iter_mut().zip(&AXES) {
-            if let Place::Frame(place) = axis.place {
+            if let Over::Frame(place) = axis.place {
                 add(&mut sums[axis.bin(place(moment, ranges))], all);
             }
         }
@@ -206,7 +204,7 @@ impl Profiles {
     pub fn curves(&self, ranges: &Ranges) -> Vec<Profile> {
         let curve = |(axis, sums): (&Axis, &Vec<Sum>)| {
             let mut sums = sums.clone();
-            if let Place::Pixel(place) = axis.place {
+            if let Over::Pixel(place) = axis.place {
                 for (pixel, &sum) in self.of_pixels.iter().enumerate() {
                     add(&mut sums[axis.bin(place(pixel, ranges))], sum);
                 }
@@ -225,5 +223,64 @@ impl Profiles {
     /// Root of each pixel's chi squared a sample; NaN where a pixel has none.
     pub fn map(&self) -> Vec<f64> {
         self.pixels.iter().map(|&(square, samples)| (square / samples as f64).sqrt()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::taken;
+    use crate::diagnose::fit::unfitted;
+    use crate::diagnose::location::locate;
+    use crate::diagnose::stated_noise;
+    use crate::frames::Geometry;
+
+    /// Every sample has its place on each axis, whatever its place hangs on: the sums over the places are the same. And the places are those of the recordings.
+    #[test]
+    fn each_axis_has_all_samples() {
+        let size = Geometry { width: 7, height: 5 };
+        let data =
+            Data::of(&taken(size, 3, &[], &["four-rail", "wdft-motion"]).unwrap(), Vec::new()).unwrap();
+        let noise = stated_noise(&data);
+        let curves = locate(&data, &unfitted(&data, noise), noise).curves;
+        let sums = |profile: &Profile| {
+            let weights = profile.points.iter().map(|point| (point.sigma_dn.powi(-2), point.residual_dn));
+            weights.fold((0.0, 0.0), |sums: Sum, (weight, residual)| {
+                (sums.0 + weight, sums.1 + weight * residual)
+            })
+        };
+        let (weight, score) = sums(&curves[0]);
+        assert!(weight > 0.0);
+        for curve in &curves {
+            let (of_weight, of_score) = sums(curve);
+            assert!((of_weight / weight - 1.0).abs() < 1e-9, "{}: {of_weight}, not {weight}", curve.name);
+            assert!((of_score - score).abs() < 1e-9 * weight, "{}: {of_score}, not {score}", curve.name);
+        }
+        let curve = |name: &str| curves.iter().find(|curve| curve.name == name).unwrap();
+        // The target's pixels do not reach the sensor's border.
+        let rows =
+            (0..size.height).filter(|row| data.target[row * size.width..][..size.width].contains(&true));
+        assert_eq!(curve("row").points.len(), rows.count());
+        assert_eq!(
+            curve("frame of a set").points.iter().map(|point| point.at).collect::<Vec<_>>(),
+            [0.0, 1.0, 2.0, 3.0, 4.0]
+        );
+        assert!(curve("position, m").points.len() > BINS / 2);
+        // Times from the first to the last of the longest recording, and velocities of both signs and none.
+        let ends = |name: &str| {
+            let at = curve(name).points.iter().map(|point| point.at);
+            at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)))
+        };
+        let moments = || data.takes.iter().flat_map(|take| &take.moments);
+        let longest_s = moments().map(|moment| moment.time_s).fold(0.0, f64::max);
+        let ((first_s, last_s), bin_s) = (ends("time, s"), longest_s / BINS as f64);
+        assert!(first_s < bin_s && (longest_s - bin_s..longest_s).contains(&last_s), "{first_s}, {last_s}");
+        let speed_m_s = moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max);
+        let (backwards, forwards) = ends("velocity, m/s");
+        assert!(
+            (backwards + forwards).abs() < 1e-9 && (0.9..1.0).contains(&(forwards / speed_m_s)),
+            "{forwards}"
+        );
+        assert!(curve("velocity, m/s").points.iter().any(|point| point.at.abs() < 1e-9));
     }
 }

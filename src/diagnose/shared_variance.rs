@@ -6,13 +6,14 @@ use crate::widest::widest;
 
 /// Clusters that are done side by side.
 const LANES: usize = 8;
-/// Of each lane, clusters whose determinants are multiplied before their logarithm is taken: a determinant is no more than 10^15.
+/// Of each lane, clusters whose determinants are multiplied before their logarithm is taken: each of them is no more than some 10^15, and far from 10^38.
 const TOGETHER: usize = 8;
 
 /// Scores and information of so many clusters.
 type Row = [[f64; LANES]; 2];
 
-/// Scores and information of clusters, side by side; the last ones may be none.
+/// Scores and information of clusters, in units of one over a common error and of its inverse square, side by side; beyond the last one stand zeros, which
+/// say nothing.
 pub struct SharedVariance(Vec<Row>);
 
 impl SharedVariance {
@@ -46,6 +47,7 @@ impl SharedVariance {
                         }
                     }
                     for n in 0..LANES {
+                        debug_assert!(!determinants[n].is_infinite(), "the logarithm knows finite numbers only");
                         logarithms[n] += ln(determinants[n]);
                     }
                 }

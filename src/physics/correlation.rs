@@ -109,13 +109,14 @@ impl Waveform {
         Self { correlation: correlation.clone(), phase_rad: phase_rad.clone(), angle_rad, relative }
     }
 
-    /// What [`Self::of`] would give for a correlation with further harmonics, but for rounding; nothing where `correlation` is another.
+    /// What [`Self::of`] would give for a correlation with further harmonics, but for rounding; nothing where `correlation`, or a phase, is another.
     pub fn with_more(&self, correlation: &Correlation, phase_rad: &PerPixel, angle_rad: f64) -> Option<Self> {
-        let is_at_hand = self.angle_rad == angle_rad && self.phase_rad == *phase_rad;
-        let more =
-            correlation.harmonics.strip_prefix(&self.correlation.harmonics[..]).filter(|_| is_at_hand)?;
+        let more = correlation.harmonics.strip_prefix(&self.correlation.harmonics[..])?;
+        if self.angle_rad != angle_rad || self.phase_rad != *phase_rad {
+            return None;
+        }
         let mut relative = self.relative.clone();
-        for harmonic in more.iter().filter(|harmonic| harmonic.amplitude != 0.0) {
+        for harmonic in more.iter().filter(|harmonic| harmonic.number > 0 && harmonic.amplitude != 0.0) {
             let (relative, phases) = (&mut relative[..], &phase_rad[..]);
             let (number, amplitude, begin_rad) =
                 (f64::from(harmonic.number), harmonic.amplitude, harmonic.phase_rad);
@@ -215,6 +216,8 @@ mod tests {
         );
         assert!(further.with_more(&Correlation::measured(), &phase_rad, 1.234).is_none());
         assert!(known.with_more(&more, &phase_rad, 1.235).is_none());
+        let others: PerPixel = phase_rad.iter().map(|phase| phase + 1e-9).collect();
+        assert!(known.with_more(&more, &others, 1.234).is_none());
     }
 
     #[test]

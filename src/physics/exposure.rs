@@ -231,7 +231,7 @@ impl Exposure {
         let (ranges_m, phases_rad) = (&mut ranges[..], &mut phases[..]);
         widest!((pixels: &'a Pixels, position_m: f64, frequency_hz: f64,
                  ranges_m: &'a mut [f64], phases_rad: &'a mut [f64]) {
-            look_at(pixels, position_m, ranges_m);
+            fill_ranges_m(pixels, position_m, ranges_m);
             for ((phase, range_m), own_rad) in phases_rad.iter_mut().zip(ranges_m).zip(&pixels.phase_rad) {
                 *phase = phase_rad(*range_m, frequency_hz) + own_rad;
             }
@@ -247,12 +247,14 @@ impl Exposure {
         let (amplitude_dn, constant_dn) = (&mut amplitudes[..], &mut constants[..]);
         widest!((pixels: &'a Pixels, position_m: f64, lit: f64,
                  amplitude_dn: &'a mut [f64], constant_dn: &'a mut [f64]) {
-            look_at(pixels, position_m, amplitude_dn);
+            // Ranges stand first where amplitudes will.
+            fill_ranges_m(pixels, position_m, amplitude_dn);
             let own = pixels.amplitude_1m_dn.iter().zip(&pixels.constant_1m_dn);
             let light = amplitude_dn.iter_mut().zip(constant_dn);
-            for ((range_m, constant), (amplitude_1m, constant_1m)) in light.zip(own) {
-                let share = lit / (*range_m * *range_m);
-                *range_m = amplitude_1m * share;
+            for ((amplitude, constant), (amplitude_1m, constant_1m)) in light.zip(own) {
+                let range_m = *amplitude;
+                let share = lit / (range_m * range_m);
+                *amplitude = amplitude_1m * share;
                 *constant = constant_1m * share;
             }
         });
@@ -309,7 +311,7 @@ impl Exposure {
 
 /// Radial ranges where the target is at `position_m`, m.
 #[inline(always)]
-fn look_at(pixels: &Pixels, position_m: f64, ranges_m: &mut [f64]) {
+fn fill_ranges_m(pixels: &Pixels, position_m: f64, ranges_m: &mut [f64]) {
     let places = pixels.target.iter().zip(&pixels.obliquity).zip(&pixels.background_m);
     for (range_m, ((&target, obliquity), &background_m)) in ranges_m.iter_mut().zip(places) {
         *range_m = if target { position_m * obliquity } else { background_m };

@@ -35,7 +35,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     } else {
         widest!((phases: &'a mut [f64], amplitudes: &'a [f64], rad: f64, exponent: f64) {
             for (phase, &amplitude) in phases.iter_mut().zip(amplitudes) {
-                *phase += rad * (power(level(amplitude), exponent) - 1.0) / exponent;
+                *phase += rad * ((power(level(amplitude), exponent) - 1.0) / exponent);
             }
         });
     }
