@@ -174,14 +174,15 @@ impl Block {
             }
         }
         // The errors do not wait.
-        self.waiting.used = waits + pixels * errors;
-        self.wait(rows, waits / pixels, &shares);
+        self.wait(rows, errors, &shares);
     }
 
-    /// What a frame adds to `mixed` waits for that of others: its `shares` of patterns, of which so many waited `before`.
-    fn wait(&mut self, rows: &Rows, before: usize, shares: &[Share]) {
+    /// What a frame adds to `mixed` waits for that of others: its `shares` of so many `patterns`, whose values stand behind those that wait.
+    fn wait(&mut self, rows: &Rows, patterns: usize, shares: &[Share]) {
         let Waiting { used, own, shares: with, .. } = &mut self.waiting;
-        let frame = own.len() / rows.own_single.len();
+        let pixels = rows.roots.len();
+        let (frame, before) = (own.len() / rows.own_single.len(), *used / pixels);
+        *used += pixels * patterns;
         own.extend_from_slice(&rows.own_single);
         with.extend(shares.iter().map(|share| (share.after(0, before), frame)));
         if *used > WAITING {

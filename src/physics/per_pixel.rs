@@ -28,7 +28,6 @@ impl From<Vec<f64>> for PerPixel {
 }
 
 impl FromIterator<f64> for PerPixel {
-    #[inline(always)]
     fn from_iter<T: IntoIterator<Item = f64>>(values: T) -> Self {
         values.into_iter().collect::<Vec<f64>>().into()
     }
