@@ -23,9 +23,11 @@ pub struct Fit {
     pub columns: Vec<Column>,
     /// Covariance of the fitted parameters, with all other numbers free.
     pub covariance: DMatrix<f64>,
-    /// Chi squared, with the sets' common position errors taken out, what their freedom costs, and the logarithms of the noise's variances: minus twice
-    /// the logarithm of the likelihood, but for a constant.
+    /// Chi squared, with the sets' common position errors taken out, what their freedom costs, the logarithms of the noise's variances, and what is
+    /// `beyond`: minus twice the logarithm of the likelihood, but for a constant.
     pub chi2: f64,
+    /// What residuals of many standard deviations have beyond what they count as.
+    pub beyond: f64,
     /// By how much a further step would lower what is left, the pixels' own numbers' part included, which `chi2` is without: next to nothing where the
     /// fit has come to an end.
     pub unreached: f64,
@@ -86,12 +88,12 @@ impl Fit {
 
     /// Whether what it leaves is far above the noise.
     pub fn is_far(&self) -> bool {
-        self.chi2 > FAR * self.samples as f64
+        self.chi2 - self.beyond > FAR * self.samples as f64
     }
 
     /// Whether `other` explains more of what this one leaves than the noise of its samples.
     pub fn is_far_from(&self, other: &Self) -> bool {
-        self.chi2 - other.chi2 > self.samples as f64
+        (self.chi2 - self.beyond) - (other.chi2 - other.beyond) > self.samples as f64
     }
 }
 
@@ -212,9 +214,9 @@ impl Model {
 
     fn end(self) -> Fit {
         let Self { pixels, pieces, round, .. } = self;
-        let Round { columns, projected, covariance, gain, samples, series, .. } = round;
+        let Round { columns, projected, covariance, gain, samples, series, beyond, .. } = round;
         let Projected { chi2, jitter_m2, .. } = projected;
-        Fit { pixels, pieces, columns, covariance, chi2, unreached: gain, samples, jitter_m2, series }
+        Fit { pixels, pieces, columns, covariance, chi2, beyond, unreached: gain, samples, jitter_m2, series }
     }
 }
 
@@ -243,6 +245,8 @@ struct Round {
     gain: f64,
     /// Sum of squares of the whitened residual here.
     square: f64,
+    /// What residuals have beyond what they count as.
+    beyond: f64,
     samples: usize,
     series: Series,
 }
@@ -261,7 +265,8 @@ impl Round {
         let projected = gram.project(None);
         let (theta, covariance) = bounded_step(&projected, &columns, pieces, pixels.full_scale_dn, 0.0);
         let gain = projected.settled + theta.dot(&projected.vector);
-        Self { columns, projected, theta, covariance, gain, square: gram.chi2, samples: gram.samples, series }
+        let Gram { chi2: square, beyond, samples, .. } = gram;
+        Self { columns, projected, theta, covariance, gain, square, beyond, samples, series }
     }
 
     fn is_far(&self) -> bool {

@@ -4,12 +4,13 @@ use super::acting::Acting;
 use super::block::{Block, Rows};
 use super::columns::{Frame, OWN, Tangents};
 use super::common_phase::CommonPhase;
+use super::coupled::{Coupled, Stack, taken};
 use super::data::Data;
 use super::encoder_noise::jitter;
 use super::in_order::joined;
 use super::noise::Noise;
-use super::set_errors::{self, Jitter, SetErrors, explained, of_reading};
-use super::whiten::whiten;
+use super::set_errors::{self, Jitter, SetErrors, of_reading};
+use super::whiten::{beyond, whiten};
 use crate::widest::widest;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
@@ -31,6 +32,8 @@ pub struct Gram {
     pub samples: usize,
     /// Sum of the logarithms of the noise's variance at the model's signal, over that at the measured one.
     ln_variance: f64,
+    /// What residuals have beyond what they count as.
+    pub beyond: f64,
 }
 
 /// What blocks have in a frame: the columns that act.
@@ -76,6 +79,7 @@ impl Gram {
             chi2: 0.0,
             samples: 0,
             ln_variance: 0.0,
+            beyond: 0.0,
         }
     }
 
@@ -90,6 +94,7 @@ impl Gram {
         self.chi2 += other.chi2;
         self.samples += other.samples;
         self.ln_variance += other.ln_variance;
+        self.beyond += other.beyond;
         self
     }
 
@@ -157,6 +162,7 @@ impl Gram {
                     visited = visit(visited, &whitened);
                     let measured = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
                     sums.ln_variance += noise.ln_variance(measured, roots);
+                    sums.beyond += beyond(measured, &frame.base, roots, residual);
                     sums.add(data, &whitened, &fill(take, index, frame));
                 }
             }
@@ -204,8 +210,11 @@ impl Gram {
         let phases = |pixel: usize| Vector4::from(PHASES.map(|pair| self.own[pair][pixel]));
         let common = || CommonPhase::of(&(0..pixels).map(phases).collect::<Vec<_>>(), &inverses);
         let common = (self.jitter != [0.0; 2]).then(common).flatten();
-        let left = self.errors.par_iter().map(|errors| errors.left(&inverses, common.as_ref())).collect();
-        Solved { inverses, common, left }
+        let left: Vec<_> =
+            self.errors.par_iter().map(|errors| errors.left(&inverses, common.as_ref())).collect();
+        let coupled = || Coupled::of(&self.errors, &inverses, &left);
+        let coupled = (self.jitter == [0.0; 2]).then(coupled).flatten();
+        Solved { inverses, common, left, coupled }
     }
 
     /// Solves everything that the columns of the first block do not decide: [`Projected`]. `jitter_m2`: variance of the encoder's
@@ -223,7 +232,7 @@ impl Gram {
     fn project_block(
         &self,
         block: &Block,
-        Solved { inverses, common, left }: &Solved,
+        Solved { inverses, common, left, coupled }: &Solved,
         jitter_m2: Option<f64>,
     ) -> Projected {
         let (size, pixels) = (block.full.nrows(), inverses.len());
@@ -285,13 +294,7 @@ impl Gram {
             };
             jitter(&sums.iter().flat_map(of).filter(|(_, square)| *square > 0.0).collect::<Vec<_>>())
         });
-        let mut freedom = 0.0;
-        for (sums, lefts) in &mut sums {
-            for &(first, left) in lefts.iter() {
-                freedom += explained(sums.rows_mut(first, left.nrows()), left, self.jitter, jitter_m2);
-            }
-            full -= sums.transpose() * &*sums;
-        }
+        let mut freedom = taken(&mut full, &mut sums, coupled.as_ref(), self.jitter, jitter_m2);
         if let Some(common) = common {
             let taken = common.fitted(&mut full, &mut solved);
             settled += taken.chi2;
@@ -300,13 +303,10 @@ impl Gram {
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();
         let raw = DVector::from_fn(residual, |column, _| block.full[(column, column)]);
-        let chi2 = full[(residual, residual)] + freedom + self.ln_variance;
+        let chi2 = full[(residual, residual)] + freedom + self.ln_variance + self.beyond;
         Projected { matrix, vector, raw, jitter_m2, chi2, settled, solved }
     }
 }
-
-/// Some sets' errors by columns, one below the other; in which row each set's begin, and what is left of them.
-type Stack<'a> = (DMatrix<f64>, Vec<(usize, &'a DMatrix<f64>)>);
 
 /// Numbers that the columns do not decide, solved.
 struct Solved {
@@ -316,6 +316,8 @@ struct Solved {
     common: Option<CommonPhase>,
     /// What these leave of each set's errors, against each other; nothing where that is nothing.
     left: Vec<Option<DMatrix<f64>>>,
+    /// What they leave of the readings' errors of all sets, where these are few.
+    coupled: Option<Coupled>,
 }
 
 /// A pixel's own numbers among those of all, number after number.
@@ -361,8 +363,8 @@ pub struct Projected {
     pub raw: DVector<f64>,
     /// Variance of the encoder's reading, m².
     pub jitter_m2: f64,
-    /// Chi squared after the projection, what the freedom of the sets' errors costs, and the logarithms of the noise's variances: minus twice the
-    /// logarithm of the likelihood, but for a constant.
+    /// Chi squared after the projection, what the freedom of the sets' errors costs, the logarithms of the noise's variances, and what residuals have
+    /// beyond what they count as: minus twice the logarithm of the likelihood, but for a constant.
     pub chi2: f64,
     /// Chi squared that the pixels' own numbers take away by a step.
     pub settled: f64,

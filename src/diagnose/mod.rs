@@ -12,6 +12,7 @@ mod common_phase;
 mod conclusion;
 mod contest;
 mod coordinates;
+mod coupled;
 mod data;
 mod encoder_noise;
 mod evidence;

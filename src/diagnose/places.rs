@@ -3,7 +3,7 @@
 use crate::physics::Moment;
 
 /// Readings of one place are no further apart, m.
-const APART_M: f64 = 1e-3;
+pub const APART_M: f64 = 1e-3;
 
 /// Gives the frames of sets that stand at one place its mean reading.
 ///

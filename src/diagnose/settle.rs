@@ -3,6 +3,7 @@
 use super::data::Data;
 use super::lines::{Series, SetSeen};
 use super::noise::Noise;
+use super::places::APART_M;
 use super::start::BACKGROUND_M;
 use crate::physics::cos_sin;
 use crate::units::phase_rad;
@@ -119,6 +120,8 @@ const USUAL_JITTER_M: f64 = 0.2e-3;
 const FEW: f64 = 0.04;
 /// A position error below this is the encoder's noise, m.
 const LEAST_JUMP_M: f64 = 1e-3;
+/// Jumps of sets at one place are alike if they differ by so many standard deviations at most.
+const ALIKE: f64 = 3.0;
 /// Chi squared a sample of an outlying set is above its neighbours' by at least so much.
 const LEAST_EXCESS: f64 = 0.3;
 
@@ -153,7 +156,21 @@ pub fn outlying(series: &Series) -> Vec<usize> {
         (0..sets.len()).filter(is_unlike).map(|at| sets[at].number).collect()
     };
     let mut found = unlike(&chi2, &|_| 1.0, LEAST_EXCESS);
-    found.extend(unlike(&jump, &blur, LEAST_JUMP_M));
+    let mut jumps = unlike(&jump, &blur, LEAST_JUMP_M);
+    // What all sets at one place say is no error of a reading.
+    let seen = |number: usize| series.sets.iter().find(|seen| seen.number == number);
+    let is_repeated = |number: &usize| {
+        let Some(this) = seen(*number) else { return false };
+        let is_alike = |other: &SetSeen| {
+            other.number != this.number
+                && (other.reading_m - this.reading_m).abs() < APART_M
+                && (jump(other) - jump(this)).abs() < ALIKE * blur(other).hypot(blur(this))
+        };
+        jumps.iter().filter_map(|&other| seen(other)).any(is_alike)
+    };
+    let repeated: Vec<usize> = jumps.iter().copied().filter(is_repeated).collect();
+    jumps.retain(|number| !repeated.contains(number));
+    found.extend(jumps);
     found.sort_unstable();
     found.dedup();
     if found.len() as f64 > FEW * series.sets.len() as f64 { Vec::new() } else { found }
@@ -189,6 +206,32 @@ mod tests {
         let (mended, moved) = with_mask(&data.with_target(shifted), noise).unwrap();
         assert_eq!((moved, &mended.target), (differ, &data.target));
         assert_eq!(differ, 2 * 10);
+    }
+
+    /// Of a sweep of two sets a place, one that is 6 mm off is an outlier, and where both are so it is the place that is.
+    #[test]
+    fn what_both_sets_of_a_place_say_is_no_outlier() {
+        let set = |number: usize, off_m: f64| SetSeen {
+            number,
+            reading_m: 1.0 + 0.1 * (number / 2) as f64,
+            position: (1e6 * off_m, 1e6),
+            chi2: (100.0, 100),
+            ..SetSeen::default()
+        };
+        let of = |off: &dyn Fn(usize) -> f64| {
+            let noise = |number: usize| 1e-3 * [0.4, -0.7, 0.2, 0.9, -0.5][number % 5];
+            let mut series = Series::default();
+            series.sets.extend((0..80).map(|number| set(number, noise(number) + off(number))));
+            outlying(&series)
+        };
+        let at = |jumps: &'static [(usize, f64)]| {
+            move |number: usize| jumps.iter().find(|jump| jump.0 == number).map_or(0.0, |jump| jump.1)
+        };
+        assert_eq!(of(&at(&[(40, 0.01)])), [40]);
+        assert_eq!(of(&at(&[(40, 0.01), (41, 0.01)])), [0; 0]);
+        // Not by as much, and not at one place.
+        assert_eq!(of(&at(&[(40, 0.01), (41, -0.01)])), [40, 41]);
+        assert_eq!(of(&at(&[(40, 0.01), (45, 0.01)])), [40, 45]);
     }
 
     /// The background there is three or four times as far as the target comes near: what a pixel sees of this by its edge is soon more than its own light.

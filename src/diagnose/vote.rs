@@ -79,8 +79,8 @@ impl Names {
     fn are_outvoted_by(&self, coordinate: &Located) -> bool {
         let is_own =
             |(of, way): (&str, &str)| coordinate.coordinate == of && coordinate.shape.starts_with(way);
-        // As long as the name says as much as they do: other ways of being off may be among them.
-        if self.own.is_some_and(is_own) && coordinate.chi2.0 <= self.at_most.0 {
+        // As long as the name says as much as they do, but for what rivals may differ by: other ways of being off may be among them.
+        if self.own.is_some_and(is_own) && coordinate.chi2.0 <= self.at_most.0 + 2.0 * RIVAL_NATS {
             return false;
         }
         // What is said of neighbours is what those effects do, roughly.
@@ -172,6 +172,10 @@ mod tests {
         assert!(named("phase, frame 3 of 4", None));
         assert!(!named("phase, frame 3 of 4", of_phase));
         assert!(named("gain, frame 3 of 4", of_phase));
+        // What the columns' own variance of the readings makes of it is no more.
+        let hardly_more =
+            Located { shape: "phase, frame 3 of 4".to_owned(), ..located("frame", 30.0, (58.0, 1), 1.0) };
+        assert!(!Names { own: of_phase, ..NAMES }.are_outvoted_by(&hardly_more));
         // They explain more than it does: not by its phases alone.
         let all =
             Located { shape: "phase, frame 3 of 4".to_owned(), ..located("frame", 40.0, (90.0, 5), 1.0) };

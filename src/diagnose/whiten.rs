@@ -27,3 +27,29 @@ pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise
     }
     (roots, residuals)
 }
+
+/// What residuals that count as less have beyond the squares that they count as, by the `roots` of the weights of a frame: chi squared with it is twice
+/// Huber's loss (1964), whose slope is the residual as it counts. Without it a model that is far off wherever it is off gets rid of the noise there.
+pub fn beyond(signal: &[f32], base: &[f64], roots: &[f64], residuals: &[f64]) -> f64 {
+    let of = |(((&measured, &base), &root), &residual): (((&f32, &f64), &f64), &f64)| {
+        let more =
+            if residual.abs() < WINSOR { 0.0 } else { (root * (f64::from(measured) - base)).abs() - WINSOR };
+        2.0 * WINSOR * more
+    };
+    signal.iter().zip(base).zip(roots).zip(residuals).map(of).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Huber's loss, k (2 |r| - k) beyond k and r² below, is what is counted and what is beyond it.
+    #[test]
+    fn what_counts_as_less_is_not_lost() {
+        let (signal, base) = ([10.0_f32, 13.0, 0.0, 30.0], [10.5, 10.0, 9.0, 10.0]);
+        let (roots, residuals) = ([1.0, 2.0, 1.0, 0.0], [-0.5, 4.0, -4.0, 0.0]);
+        let counted: f64 = residuals.iter().map(|residual| residual * residual).sum();
+        let huber = 0.25 + 4.0 * (2.0 * 6.0 - 4.0) + 4.0 * (2.0 * 9.0 - 4.0);
+        assert_eq!(counted + beyond(&signal, &base, &roots, &residuals), huber);
+    }
+}
