@@ -86,14 +86,19 @@ impl Fit {
         0.5 * self.left() + self.columns.len() as f64
     }
 
+    /// Chi squared of residuals as they count: what is explained of that is what shares and tolerances are of.
+    pub fn counted(&self) -> f64 {
+        self.chi2 - self.beyond
+    }
+
     /// Whether what it leaves is far above the noise.
     pub fn is_far(&self) -> bool {
-        self.chi2 - self.beyond > FAR * self.samples as f64
+        self.counted() > FAR * self.samples as f64
     }
 
     /// Whether `other` explains more of what this one leaves than the noise of its samples.
     pub fn is_far_from(&self, other: &Self) -> bool {
-        (self.chi2 - self.beyond) - (other.chi2 - other.beyond) > self.samples as f64
+        self.counted() - other.counted() > self.samples as f64
     }
 }
 

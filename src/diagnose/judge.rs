@@ -83,7 +83,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     if let Some(unnamed) = unnamed {
         [&mut places, &mut left].into_iter().for_each(|places| unnamed.clone().join(places));
     }
-    let of_names = if named.is_empty() { 0.0 } else { found.baseline.chi2 - found.fit.chi2 };
+    let of_names = if named.is_empty() { 0.0 } else { found.baseline.counted() - found.fit.counted() };
     let explained = (of_names - unnamed.map_or(0.0, |unnamed| unnamed.chi2.0)).max(0.0);
 
     let seems = random_effect(data, &end);

@@ -225,7 +225,7 @@ impl<'a> Search<'a> {
         let is_better = fitted.cost() < most;
         if is_better {
             // Neither explains more than both.
-            let gain = self.baseline.chi2 - fitted.chi2;
+            let gain = self.baseline.counted() - fitted.counted();
             self.named = named;
             self.named.iter_mut().for_each(|named| named.score.0 = named.score.0.min(gain));
             self.current = fitted;
@@ -310,6 +310,7 @@ impl<'a> Search<'a> {
             return false;
         }
         // Of one alone it is known what it explains.
+        let gain = current.counted() - fitted.counted();
         let explained = |chi2: f64| if best.blocks.len() == 1 { gain } else { chi2.min(gain) };
         for &block in &best.blocks {
             let block_of = &pass.blocks[block];
