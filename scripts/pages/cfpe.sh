@@ -55,3 +55,19 @@ python3 scripts/pages/picture.py "$OUT/01.html" "phase, turns" docs/images/cfpe-
 shown diagnose "$OUT/04" | put "$PAGE" other
 take 04-told 04 30 1 --camera "$OUT/01-camera.toml" >/dev/null
 shown diagnose "$OUT/04-told" | put "$PAGE" told
+
+# Every scene that is there, alone, and told by every other one: what verdicts say of it.
+scenes=()
+for scene in 01 04 06 08; do [[ -e $IN/${scene}00h.bmp ]] && scenes+=("$scene"); done
+for scene in "${scenes[@]}"; do
+  take "$scene" "$scene" 30 1 >/dev/null
+  "$VURIS" diagnose "$OUT/$scene" --json "$OUT/$scene.json" --write-camera "$OUT/$scene-camera.toml" >/dev/null
+done
+for scene in "${scenes[@]}"; do
+  for other in "${scenes[@]}"; do
+    [[ $scene == "$other" ]] && continue
+    take "$scene-by-$other" "$scene" 30 1 --camera "$OUT/$other-camera.toml" >/dev/null
+    "$VURIS" diagnose "$OUT/$scene-by-$other" --json "$OUT/$scene-by-$other.json" >/dev/null
+  done
+done
+python3 scripts/pages/scenes.py "$OUT" "${scenes[@]}" | put "$PAGE" scenes

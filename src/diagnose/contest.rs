@@ -47,7 +47,7 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
     let fits: Vec<Fit> = entrants.iter().map(|entrant| of_part(&entrant.pieces)).collect();
     let explained = |(entrant, fit): (&Entrant, &Fit)| {
         let numbers = fit.columns.len().saturating_sub(before.columns.len()) as f64;
-        let all = before.left() - fit.left();
+        let all = (before.counted() + before.unreached) - (fit.counted() + fit.unreached);
         let no_chance = all - numbers - BY_CHANCE * (2.0 * numbers).sqrt();
         Explained {
             name: entrant.name,

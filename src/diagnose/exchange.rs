@@ -40,11 +40,12 @@ pub fn exchange(
         let fits = simpler(first, candidates, named, number).into_iter().map(fitted).filter(is_simpler);
         if let Some((block, fitted)) = fits.min_by(|a, b| a.1.cost().total_cmp(&b.1.cost())) {
             let (name, worse) = (first.name(block, candidates), fitted.cost() - current.cost());
-            let less = fitted.chi2 - current.chi2;
+            let less = fitted.counted() - current.counted();
             let named = &mut named[number];
             named.name = name;
-            named.ln_bayes -= 0.5 * less;
-            named.score = (explained - less, first.scores[block].map_or(1, |(_, numbers)| numbers));
+            named.ln_bayes -= 0.5 * (fitted.chi2 - current.chi2);
+            named.score =
+                ((explained - less).max(0.0), first.scores[block].map_or(1, |(_, numbers)| numbers));
             named.rivals.retain(|rival| rival != name);
             if worse > -RIVAL_NATS {
                 named.rivals.push(old.to_owned());

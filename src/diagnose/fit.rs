@@ -6,10 +6,11 @@ use super::gram::{Gram, Projected, Whitened};
 use super::lines::Series;
 use super::noise::Noise;
 use super::pieces::Piece;
+use super::settling::{moved, settled};
 use super::start::linear;
 use super::watchdog::{ENOUGH, descend};
 use crate::physics::Pixels;
-use nalgebra::{DMatrix, DVector, Vector4};
+use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 /// A fitted model.
@@ -48,8 +49,7 @@ fn start(data: &Data, noise: Noise, counts: &(dyn Fn(usize) -> bool + Sync)) -> 
     }
     APPROACH.into_iter().fold(pixels, |pixels, share| {
         let part = data.with_share_of_included(share);
-        let settle = |pixels, _| settled(&part, &pixels, &[], noise, counts);
-        (0..SETTLINGS).fold(pixels, settle)
+        settled(&part, &pixels, None, SETTLINGS, &[], noise, counts)
     })
 }
 
@@ -100,19 +100,6 @@ impl Fit {
     pub fn is_far_from(&self, other: &Self) -> bool {
         self.counted() - other.counted() > self.samples as f64
     }
-}
-
-/// The pixels with their own numbers as they fit best, but for what their tangents leave, beside `pieces` as they are.
-pub fn settled(
-    data: &Data,
-    pixels: &Arc<Pixels>,
-    pieces: &[Piece],
-    noise: Noise,
-    counts: &(dyn Fn(usize) -> bool + Sync),
-) -> Arc<Pixels> {
-    let known: Vec<Piece> = pieces.iter().map(|piece| Piece { free: Vec::new(), ..piece.clone() }).collect();
-    let round = Round::new(data, pixels, &known, noise, counts);
-    Arc::new(moved(pixels, &round.projected.own(&round.theta)))
 }
 
 /// By at least this share a step far from the minimum must lower the sum of squares for another one to be taken.
@@ -203,14 +190,14 @@ impl Model {
         DAMPINGS.into_iter().find_map(|damping| {
             let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), damping);
             if self.round.is_far() {
-                pixels = settled(data, &pixels, &pieces, noise, counts);
+                pixels = settled(data, &pixels, Some(&self.pixels), SETTLINGS, &pieces, noise, counts);
             }
             let round = Round::new(data, &pixels, &pieces, noise, counts);
             let is_taken = match may_climb {
-                true => round.square <= WORSE * self.round.square && round.left().is_finite(),
+                true => round.loss() <= WORSE * self.round.loss() && round.left().is_finite(),
                 false => round.left() <= self.round.left(),
             };
-            let is_slow = round.square > (1.0 - SLOW) * self.round.square;
+            let is_slow = round.loss() > (1.0 - SLOW) * self.round.loss();
             let is_stuck = is_slow && round.is_far();
             let came_down = round.left() <= self.round.left();
             is_taken.then_some(Self { pixels, pieces, round, came_down, is_stuck })
@@ -274,6 +261,11 @@ impl Round {
         Self { columns, projected, theta, covariance, gain, square, beyond, samples, series }
     }
 
+    /// What there is to be made small, but for what sets share.
+    fn loss(&self) -> f64 {
+        self.square + self.beyond
+    }
+
     fn is_far(&self) -> bool {
         self.square > FAR * self.samples as f64
     }
@@ -283,9 +275,9 @@ impl Round {
         self.projected.chi2 + self.projected.settled
     }
 
-    /// What the fit will cost, nats, if steps take away more than they promise.
+    /// What the fit will cost, nats, if steps take away more than they promise, and all that residuals have beyond what they count as.
     fn hoped(&self) -> f64 {
-        0.5 * (self.left() - HOPE * self.gain) + self.columns.len() as f64
+        0.5 * (self.left() - HOPE * self.gain - self.beyond) + self.columns.len() as f64
     }
 
     /// `pixels` and `pieces`, moved by the step with so much `damping`.
@@ -293,7 +285,7 @@ impl Round {
         let damped =
             || bounded_step(&self.projected, &self.columns, &pieces, pixels.full_scale_dn, damping).0;
         let theta = if damping > 0.0 { damped() } else { self.theta.clone() };
-        let pixels = Arc::new(moved(pixels, &self.projected.own(&theta)));
+        let pixels = Arc::new(moved(pixels, &self.projected.own(&theta), 1.0));
         for (column, step) in self.columns.iter().zip(theta.iter()) {
             let piece = &mut pieces[column.piece];
             let parameter = &piece.effect.parameters[column.parameter];
@@ -372,16 +364,4 @@ fn step(projected: &Projected, reach: &[f64], damping: f64) -> (DVector<f64>, DM
     let theta = (&inverse * projected.vector.component_mul(&scale)).component_mul(&scale);
     let covariance = DMatrix::from_fn(size, size, |r, c| inverse[(r, c)] * scale[r] * scale[c]);
     (theta, covariance)
-}
-
-/// The pixels with their own numbers moved.
-fn moved(pixels: &Pixels, own: &[Vector4<f64>]) -> Pixels {
-    let mut moved = pixels.clone();
-    for (pixel, step) in own.iter().enumerate() {
-        moved.amplitude_1m_dn[pixel] += step[0];
-        moved.phase_rad[pixel] += step[1];
-        moved.constant_1m_dn[pixel] += step[2];
-        moved.ambient_dn[pixel] += step[3];
-    }
-    moved
 }

@@ -10,7 +10,7 @@ use super::encoder_noise::jitter;
 use super::in_order::joined;
 use super::noise::Noise;
 use super::set_errors::{self, Jitter, SetErrors, of_reading};
-use super::whiten::{beyond, whiten};
+use super::whiten::{tails, whiten};
 use crate::widest::widest;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use rayon::prelude::*;
@@ -162,7 +162,7 @@ impl Gram {
                     visited = visit(visited, &whitened);
                     let measured = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
                     sums.ln_variance += noise.ln_variance(measured, roots);
-                    sums.beyond += beyond(measured, &frame.base, roots, residual);
+                    sums.beyond += tails(measured, &frame.base, roots, residual).sum::<f64>();
                     sums.add(data, &whitened, &fill(take, index, frame));
                 }
             }

@@ -5,27 +5,27 @@
 
 use super::columns::Tangents;
 use super::data::{Data, Take};
-use super::fit::{Fit, fit, improved, settled};
+use super::fit::{Fit, fit, improved};
 use super::jitters::{self, Jitters};
 use super::noise::Noise;
-use super::whiten::whiten;
+use super::settling::settled;
+use super::whiten::{tails, whiten};
 use crate::spec::SCHEMES;
 use crate::units::phase_rad;
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
 /// Agreement of a prediction with the recordings.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Agreement {
     /// Chi squared a sample.
     pub chi2_per_dof: f64,
-    /// Root mean square of the difference of raw frames, DN.
+    /// Root mean square of the difference of raw frames, DN: of all samples that count, as they are.
     pub rms_dn: f64,
     /// The same of each frame's mean difference, DN.
     pub frame_mean_rms_dn: f64,
-    /// The same of the distance that a set shows, its pixels' mean, m: four frames, WDFT and whatever else was recorded together.
+    /// The same of the distance that a set shows, its pixels' mean, m.
     pub distance_rms_m: f64,
 }
 
@@ -58,7 +58,7 @@ struct Seen {
     /// Its recording.
     take: usize,
     chi2: f64,
-    /// Chi squared and the logarithms of the variances: minus twice the logarithm of the likelihood, but for a constant.
+    /// Minus twice the logarithm of the likelihood, but for a constant.
     unlikely: f64,
     samples: usize,
     /// Squared difference of all samples, DN².
@@ -158,9 +158,8 @@ fn agreement(sets: &[Seen]) -> Agreement {
 /// Halves of the image times every other frame.
 const PARTS: usize = 4;
 
-/// How often pixels are settled where parameters are known.
+/// How often pixels are settled where parameters are known, at most.
 const SETTLING: usize = 3;
-
 /// A half of the image in every other frame: `(a number of its own for each set, what it shows)`.
 fn predicted_frames(data: &Data, by: Predictor, part: usize) -> Vec<(usize, Seen)> {
     let Predictor { fit: of, noise, .. } = by;
@@ -169,8 +168,7 @@ fn predicted_frames(data: &Data, by: Predictor, part: usize) -> Vec<(usize, Seen
     let elsewhere = data.only(|_, pixel| half_of(pixel) != half);
     let pieces = fit(&elsewhere, Some(of), of.pieces.clone(), noise, &|_| true).pieces;
     let between = data.only(|frame, pixel| half_of(pixel) == half && frame % 2 != odd);
-    let settle = |pixels, _| settled(&between, &pixels, &pieces, noise, &|_| true);
-    let pixels = (0..SETTLING).fold(Arc::clone(&of.pixels), settle);
+    let pixels = settled(&between, &of.pixels, None, SETTLING, &pieces, noise, &|_| true);
     let held = data.only(|frame, pixel| half_of(pixel) == half && frame % 2 == odd);
     let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
     let sets = data.sets().into_iter().enumerate();
@@ -213,7 +211,8 @@ fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set: usi
         let base = tangents.base(number, index);
         let (roots, residuals) = whiten(data, number, index, &base, noise);
         let measured = &take.signal_dn[index * data.pixels()..(index + 1) * data.pixels()];
-        seen.unlikely += noise.ln_variance(measured, &roots);
+        seen.unlikely +=
+            noise.ln_variance(measured, &roots) + tails(measured, &base, &roots, &residuals).sum::<f64>();
         if by.has_jitters() {
             let frame = tangents.frame(number, index);
             let moment = &take.moments[index];
@@ -222,14 +221,14 @@ fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set: usi
         let weight = weight(take, frame);
         let (mut sum_dn, mut samples) = (0.0, 0);
         for pixel in (0..data.pixels()).filter(|&pixel| roots[pixel] > 0.0) {
-            let difference_dn = residuals[pixel] / roots[pixel];
+            let difference_dn = f64::from(measured[pixel]) - base[pixel];
             seen.chi2 += residuals[pixel] * residuals[pixel];
             seen.unlikely += residuals[pixel] * residuals[pixel];
             seen.square_dn2 += difference_dn * difference_dn;
             sum_dn += difference_dn;
             samples += 1;
             if data.target[pixel] {
-                phasors[pixel].0 += weight * (base[pixel] + difference_dn);
+                phasors[pixel].0 += weight * (base[pixel] + residuals[pixel] / roots[pixel]);
                 phasors[pixel].1 += weight * base[pixel];
             }
         }
@@ -273,6 +272,7 @@ mod tests {
     use crate::frames::{Geometry, RawSets};
     use crate::physics::{Active, Stage};
     use std::path::Path;
+    use std::sync::Arc;
 
     const SEED: u64 = 3;
     const HARMONICS: &str = "harmonics";

@@ -176,18 +176,18 @@ impl Pass {
         self.singles[block] + 0.5 * (before - fit.chi2 - fit.unreached - score) - by_chance
     }
 
-    /// Of blocks and their fits, to data whose chi squared was `before`: the best one, with its fit, and the effects that come as near as
+    /// Of blocks and their fits, to data of which `before` was the fit: the best one, with its fit, and the effects that come as near as
     /// its form can be trusted; nothing where there are none.
     pub fn fittest(
         &self,
-        before: f64,
+        before: &Fit,
         fits: impl Iterator<Item = (usize, Fit)>,
         candidates: &[Candidate],
         is_far: bool,
     ) -> Option<(Model, Fit, Vec<String>)> {
-        let explained = |fit: &Fit| before - fit.chi2 - fit.unreached;
+        let explained = |fit: &Fit| before.counted() - fit.counted() - fit.unreached;
         let judged = |(block, fit): (usize, Fit)| {
-            (self.fitted_ln_bayes(block, self.name(block, candidates), before, &fit), block, fit)
+            (self.fitted_ln_bayes(block, self.name(block, candidates), before.chi2, &fit), block, fit)
         };
         let mut judged: Vec<(f64, usize, Fit)> = fits.map(judged).collect();
         // A model that is no number anywhere fits nothing.
@@ -207,7 +207,7 @@ impl Pass {
         let own = tolerance(self.name(block, candidates));
         let is_near = |(nats, other, _): &&(f64, usize, Fit)| {
             let form = own.max(tolerance(self.name(*other, candidates)));
-            *nats > ln_bayes - (0.5 * form * (before - fit.chi2)).max(RIVAL_NATS)
+            *nats > ln_bayes - (0.5 * form * (before.counted() - fit.counted())).max(RIVAL_NATS)
         };
         let near =
             judged.iter().filter(is_near).map(|other| self.name(other.1, candidates).to_owned()).collect();

@@ -1,6 +1,7 @@
 //! The search: baseline, evidence of all candidates at once, fit of the best, and again for what is left.
 
 use super::alone::Alone;
+use super::completed::{Completed, NEEDED_NATS};
 use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
@@ -25,10 +26,6 @@ const ALIKE_SHARE: f64 = 0.5;
 pub const UNDESCRIBED: f64 = 0.1;
 /// A fit keeps at least so much of what the tangents promise.
 const KEPT_SHARE: f64 = 0.5;
-/// How often a fit is begun anew where the first one was.
-const COMPLETING: usize = 4;
-/// An effect without which chi squared, halved, rises by less than this and one more for each of its numbers was not needed.
-const NEEDED_NATS: f64 = 6.0;
 
 /// An effect that is asserted.
 #[derive(Debug, Clone)]
@@ -107,6 +104,8 @@ pub struct Search<'a> {
     named: Vec<Named>,
     /// What the tangents at the baseline promised, where that was two effects.
     promised: Option<Promised>,
+    /// The fit with all numbers of an effect that has one instead of others, as long as another effect may say the same.
+    completed: Option<Completed>,
     /// The pass at the baseline, and what it says of each candidate alone.
     first: Option<(Pass, Vec<Alone>)>,
     is_over: bool,
@@ -125,6 +124,7 @@ impl<'a> Search<'a> {
             current,
             named: Vec::new(),
             promised: None,
+            completed: None,
             first: None,
             is_over: false,
         }
@@ -194,10 +194,13 @@ impl<'a> Search<'a> {
             current: self.current.clone(),
             named: self.named.clone(),
             promised: self.promised.clone(),
+            completed: self.completed.clone(),
             first: self.first.clone(),
-            is_over: without.is_none() && self.promised.is_none(),
+            is_over: without.is_none() && self.promised.is_none() && self.completed.is_none(),
             ..*self
         });
+        let completed =
+            self.completed.take().map(|completed| (completed, self.current.clone(), self.named.clone()));
         match next {
             Some((best, whole)) if best.blocks.len() + self.named.len() <= MOST_EFFECTS => {
                 // Far from the baseline tangents promise more than there is, and of several effects the simplest is believed.
@@ -205,9 +208,16 @@ impl<'a> Search<'a> {
                 if is_believed && self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
                     self.promise(&pass, &candidates, &whole);
                 }
-                self.is_over = !self.name(&pass, &candidates, best, &whole) && !self.reconsiders();
+                let is_named = self.name(&pass, &candidates, best, &whole);
+                self.is_over = !is_named && completed.is_none() && !self.reconsiders();
             }
-            _ => self.is_over = !self.reconsiders(),
+            _ => self.is_over = completed.is_none() && !self.reconsiders(),
+        }
+        if let Some((completed, before, named)) = completed {
+            let is_said = self.named.len() > named.len() && completed.is_said_by(&self.current, &before);
+            if !is_said {
+                self.complete(completed, &before, named);
+            }
         }
         without
     }
@@ -225,12 +235,23 @@ impl<'a> Search<'a> {
         let is_better = fitted.cost() < most;
         if is_better {
             // Neither explains more than both.
-            let gain = self.baseline.counted() - fitted.counted();
+            let gain = (self.baseline.counted() - fitted.counted()).max(0.0);
             self.named = named;
             self.named.iter_mut().for_each(|named| named.score.0 = named.score.0.min(gain));
             self.current = fitted;
         }
         is_better
+    }
+
+    /// Goes on from the fit `completed` and what was `named` before it was, at the fit `before`.
+    fn complete(&mut self, Completed { name, fit }: Completed, before: &Fit, named: Vec<Named>) {
+        self.named = named;
+        for named in self.named.iter_mut().filter(|named| named.name == name) {
+            named.ln_bayes += 0.5 * (before.chi2 - fit.chi2);
+            named.score.0 = (named.score.0 + before.counted() - fit.counted()).max(0.0);
+        }
+        self.current = fit;
+        self.completed = None;
     }
 
     /// Keeps the two effects of the model `whole` in mind, whose strongest one comes first, alone.
@@ -267,7 +288,7 @@ impl<'a> Search<'a> {
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
                 let fits = entrants.into_iter().map(|entrant| (entrant.block, fitted(entrant.pieces)));
-                pass.fittest(current.chi2, fits, candidates, is_far)
+                pass.fittest(current, fits, candidates, is_far)
             };
             let (mut single, mut fitted, mut near) = contest(&others)?;
             if !others.is_empty() && single.ln_bayes < THRESHOLD {
@@ -284,34 +305,29 @@ impl<'a> Search<'a> {
                 );
                 single = Model { ln_bayes, ..single };
             }
-            if !is_far {
-                return Some((single, fitted, near));
-            }
-            let chi2 = fitted.chi2;
-            let complete = completed(data, fitted, noise);
-            let ln_bayes = single.ln_bayes + 0.5 * (chi2 - complete.chi2);
-            Some((Model { ln_bayes, ..single }, complete, near))
+            Some((single, fitted, near))
         };
         let is_far = pass.is_far(whole, current.samples);
         let first_choice = lead(is_far).unwrap_or_else(|| (best.clone(), with(&best.blocks), Vec::new()));
         // A fit that does not keep half of what tangents promise is too far from them.
-        let is_broken = current.chi2 - first_choice.1.chi2 < KEPT_SHARE * pass.promised(&first_choice.0);
-        let choice = if is_broken && !is_far { lead(true).unwrap_or(first_choice) } else { first_choice };
-        let (best, fitted, near) = choice;
+        let kept = current.counted() - first_choice.1.counted();
+        let is_broken = kept < KEPT_SHARE * pass.promised(&first_choice.0);
+        let far_choice = if is_broken && !is_far { lead(true) } else { None };
+        let is_far = is_far || far_choice.is_some();
+        let (best, fitted, near) = far_choice.unwrap_or(first_choice);
         rivals.extend(near);
         let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, candidates) == rival);
         rivals.retain(|rival| !own(rival));
         rivals.extend(pass.near(&best, candidates));
         let mut known = BTreeSet::new();
         rivals.retain(|rival| known.insert(rival.clone()));
-        let gain = current.chi2 - fitted.chi2;
         // What its tangents promise, and its form cannot keep.
-        if gain < 2.0 * THRESHOLD {
+        if current.chi2 - fitted.chi2 < 2.0 * THRESHOLD {
             return false;
         }
         // Of one alone it is known what it explains.
-        let gain = current.counted() - fitted.counted();
-        let explained = |chi2: f64| if best.blocks.len() == 1 { gain } else { chi2.min(gain) };
+        let all = (current.counted() - fitted.counted()).max(0.0);
+        let explained = |chi2: f64| if best.blocks.len() == 1 { all } else { chi2.min(all) };
         for &block in &best.blocks {
             let block_of = &pass.blocks[block];
             self.named.push(Named {
@@ -321,30 +337,10 @@ impl<'a> Search<'a> {
                 rivals: rivals.clone(),
             });
         }
+        self.completed = if is_far { Completed::of(self.data, &fitted, self.noise) } else { None };
         self.current = fitted;
         true
     }
-}
-
-/// `fit`, or, where it says with one number what others say in another way, a fit with all of them, if that is better: far from the
-/// baseline neither needs to say all.
-fn completed(data: &Data, fitted: Fit, noise: Noise) -> Fit {
-    let mut pieces = fitted.pieces.clone();
-    for piece in &mut pieces {
-        let parameters = piece.effect.parameters;
-        if piece.free.iter().any(|&number| parameters[number].is_instead) {
-            piece.free = (0..parameters.len()).filter(|&number| !parameters[number].is_choice).collect();
-        }
-    }
-    let more: usize = pieces.iter().zip(&fitted.pieces).map(|(a, b)| a.free.len() - b.free.len()).sum();
-    if more == 0 {
-        return fitted;
-    }
-    // Numbers that say nearly the same come to their end slowly.
-    let further = |from: Fit, _| fit(data, Some(&from), from.pieces.clone(), noise, &|_| true);
-    let complete = (1..COMPLETING).fold(fit(data, Some(&fitted), pieces, noise, &|_| true), further);
-    let gain = 0.5 * (fitted.chi2 - complete.chi2);
-    if gain > NEEDED_NATS + more as f64 { complete } else { fitted }
 }
 
 /// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.

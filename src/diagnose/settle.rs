@@ -120,7 +120,7 @@ const USUAL_JITTER_M: f64 = 0.2e-3;
 const FEW: f64 = 0.04;
 /// A position error below this is the encoder's noise, m.
 const LEAST_JUMP_M: f64 = 1e-3;
-/// Jumps of sets at one place are alike if they differ by so many standard deviations at most.
+/// Jumps of sets at one place, in one recording, are alike if they differ by so many standard deviations at most.
 const ALIKE: f64 = 3.0;
 /// Chi squared a sample of an outlying set is above its neighbours' by at least so much.
 const LEAST_EXCESS: f64 = 0.3;
@@ -155,25 +155,34 @@ pub fn outlying(series: &Series) -> Vec<usize> {
             |at: &usize| differences[*at].abs() > (UNLIKE * usual * scatter(&sets[*at])).max(least);
         (0..sets.len()).filter(is_unlike).map(|at| sets[at].number).collect()
     };
-    let mut found = unlike(&chi2, &|_| 1.0, LEAST_EXCESS);
-    let mut jumps = unlike(&jump, &blur, LEAST_JUMP_M);
-    // What all sets at one place say is no error of a reading.
-    let seen = |number: usize| series.sets.iter().find(|seen| seen.number == number);
-    let is_repeated = |number: &usize| {
-        let Some(this) = seen(*number) else { return false };
-        let is_alike = |other: &SetSeen| {
-            other.number != this.number
-                && (other.reading_m - this.reading_m).abs() < APART_M
-                && (jump(other) - jump(this)).abs() < ALIKE * blur(other).hypot(blur(this))
-        };
-        jumps.iter().filter_map(|&other| seen(other)).any(is_alike)
-    };
-    let repeated: Vec<usize> = jumps.iter().copied().filter(is_repeated).collect();
-    jumps.retain(|number| !repeated.contains(number));
-    found.extend(jumps);
+    let jumps = unlike(&jump, &blur, LEAST_JUMP_M);
+    let mut found = [unlike(&chi2, &|_| 1.0, LEAST_EXCESS), jumps.clone()].concat();
     found.sort_unstable();
     found.dedup();
-    if found.len() as f64 > FEW * series.sets.len() as f64 { Vec::new() } else { found }
+    if found.len() as f64 > FEW * series.sets.len() as f64 {
+        return Vec::new();
+    }
+    // What all sets at one place say is no error of a reading.
+    let is_of_place = |this: &SetSeen| {
+        let is_there = |other: &&SetSeen| {
+            other.number != this.number
+                && other.take == this.take
+                && other.velocity_m_s == this.velocity_m_s
+                && (other.reading_m - this.reading_m).abs() < APART_M
+        };
+        let is_alike =
+            |other: &SetSeen| (jump(other) - jump(this)).abs() < ALIKE * blur(other).hypot(blur(this));
+        let mut there = series.sets.iter().filter(is_there).peekable();
+        there.peek().is_some() && there.all(is_alike)
+    };
+    let of_places: Vec<usize> = series
+        .sets
+        .iter()
+        .filter(|seen| jumps.contains(&seen.number) && is_of_place(seen))
+        .map(|seen| seen.number)
+        .collect();
+    found.retain(|number| !of_places.contains(number));
+    found
 }
 
 fn median(values: &mut [f64]) -> f64 {
@@ -208,30 +217,34 @@ mod tests {
         assert_eq!(differ, 2 * 10);
     }
 
-    /// Of a sweep of two sets a place, one that is 6 mm off is an outlier, and where both are so it is the place that is.
+    /// Of a rail with so many sets a place, one that is 10 mm off is an outlier, and where all of a place are so it is the place that is: by what they are off,
+    /// and by the chi squared that comes of it.
     #[test]
-    fn what_both_sets_of_a_place_say_is_no_outlier() {
-        let set = |number: usize, off_m: f64| SetSeen {
-            number,
-            reading_m: 1.0 + 0.1 * (number / 2) as f64,
-            position: (1e6 * off_m, 1e6),
-            chi2: (100.0, 100),
-            ..SetSeen::default()
-        };
-        let of = |off: &dyn Fn(usize) -> f64| {
+    fn what_all_sets_of_a_place_say_is_no_outlier() {
+        let of = |a_place: usize, jumps: &[(usize, f64)]| {
             let noise = |number: usize| 1e-3 * [0.4, -0.7, 0.2, 0.9, -0.5][number % 5];
+            let off = |number: usize| jumps.iter().find(|jump| jump.0 == number).map_or(0.0, |jump| jump.1);
+            let set = |number: usize| SetSeen {
+                number,
+                reading_m: 1.0 + 0.1 * (number / a_place) as f64,
+                position: (1e6 * (noise(number) + off(number)), 1e6),
+                chi2: (100.0 + 1e6 * off(number).powi(2), 100),
+                ..SetSeen::default()
+            };
             let mut series = Series::default();
-            series.sets.extend((0..80).map(|number| set(number, noise(number) + off(number))));
+            series.sets.extend((0..120).map(set));
             outlying(&series)
         };
-        let at = |jumps: &'static [(usize, f64)]| {
-            move |number: usize| jumps.iter().find(|jump| jump.0 == number).map_or(0.0, |jump| jump.1)
-        };
-        assert_eq!(of(&at(&[(40, 0.01)])), [40]);
-        assert_eq!(of(&at(&[(40, 0.01), (41, 0.01)])), [0; 0]);
-        // Not by as much, and not at one place.
-        assert_eq!(of(&at(&[(40, 0.01), (41, -0.01)])), [40, 41]);
-        assert_eq!(of(&at(&[(40, 0.01), (45, 0.01)])), [40, 45]);
+        assert_eq!(of(2, &[(40, 0.01)]), [40]);
+        assert_eq!(of(2, &[(40, 0.01), (41, 0.01)]), [0; 0]);
+        // Not by as much, not at one place, and not all that are there.
+        assert_eq!(of(2, &[(40, 0.01), (41, -0.01)]), [40, 41]);
+        assert_eq!(of(2, &[(40, 0.01), (45, 0.01)]), [40, 45]);
+        assert_eq!(of(3, &[(42, 0.01), (43, 0.01)]), [42, 43]);
+        assert_eq!(of(3, &[(42, 0.01), (43, 0.01), (44, 0.011)]), [0; 0]);
+        assert_eq!(of(120, &[(40, 0.01), (41, 0.01)]), [40, 41]);
+        // Many are none, whatever their places say.
+        assert_eq!(of(2, &[(40, 0.01), (41, 0.01), (10, 0.01), (20, 0.01), (30, 0.01)]), [0; 0]);
     }
 
     /// The background there is three or four times as far as the target comes near: what a pixel sees of this by its edge is soon more than its own light.

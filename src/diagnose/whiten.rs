@@ -28,15 +28,21 @@ pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise
     (roots, residuals)
 }
 
-/// What residuals that count as less have beyond the squares that they count as, by the `roots` of the weights of a frame: chi squared with it is twice
-/// Huber's loss (1964), whose slope is the residual as it counts. Without it a model that is far off wherever it is off gets rid of the noise there.
-pub fn beyond(signal: &[f32], base: &[f64], roots: &[f64], residuals: &[f64]) -> f64 {
+/// What residuals that count as less have beyond the squares that they count as, sample by sample, by the `roots` of the weights of a frame: chi squared
+/// with it is twice Huber's loss (1964), whose slope is the residual as it counts. Without it a model that is far off wherever it is off gets rid of the noise
+/// there.
+pub fn tails<'a>(
+    signal: &'a [f32],
+    base: &'a [f64],
+    roots: &'a [f64],
+    residuals: &'a [f64],
+) -> impl Iterator<Item = f64> + 'a {
     let of = |(((&measured, &base), &root), &residual): (((&f32, &f64), &f64), &f64)| {
         let more =
             if residual.abs() < WINSOR { 0.0 } else { (root * (f64::from(measured) - base)).abs() - WINSOR };
         2.0 * WINSOR * more
     };
-    signal.iter().zip(base).zip(roots).zip(residuals).map(of).sum()
+    signal.iter().zip(base).zip(roots).zip(residuals).map(of)
 }
 
 #[cfg(test)]
@@ -50,6 +56,6 @@ mod tests {
         let (roots, residuals) = ([1.0, 2.0, 1.0, 0.0], [-0.5, 4.0, -4.0, 0.0]);
         let counted: f64 = residuals.iter().map(|residual| residual * residual).sum();
         let huber = 0.25 + 4.0 * (2.0 * 6.0 - 4.0) + 4.0 * (2.0 * 9.0 - 4.0);
-        assert_eq!(counted + beyond(&signal, &base, &roots, &residuals), huber);
+        assert_eq!(counted + tails(&signal, &base, &roots, &residuals).sum::<f64>(), huber);
     }
 }

@@ -1,0 +1,139 @@
+//! The pixels' own numbers beside parameters that are known: each pixel goes by itself, and none to where it fits worse.
+
+use super::columns::{OWN, Tangents};
+use super::data::Data;
+use super::gram::Gram;
+use super::in_order::joined;
+use super::noise::Noise;
+use super::pieces::Piece;
+use super::whiten::{tails, whiten};
+use crate::physics::Pixels;
+use nalgebra::{DVector, Vector4};
+use std::sync::Arc;
+
+/// Shares of its step that a pixel tries, until one leads it downhill: where light and response are far from those that were measured, a whole one may lead
+/// anywhere, and of a pixel that is saturated in most frames every one does.
+const SHARES: [f64; 3] = [1.0, 0.25, 0.0625];
+/// A step that takes away a smaller share of what is left is the last one.
+const SLOW: f64 = 0.01;
+/// Sets are summed in so many chunks.
+const CHUNKS: usize = 16;
+
+/// What the model stands on: recordings, effects as they are, noise, and the sets (number over all recordings) that count.
+#[derive(Clone, Copy)]
+struct Bench<'a> {
+    data: &'a Data,
+    pieces: &'a [Piece],
+    noise: Noise,
+    counts: &'a (dyn Fn(usize) -> bool + Sync),
+}
+
+impl Bench<'_> {
+    /// Twice Huber's loss of each pixel, over the sets that count; no number where the model is none.
+    fn losses(&self, pixels: &Arc<Pixels>) -> Vec<f64> {
+        let (data, count) = (self.data, self.data.pixels());
+        let (tangents, _) = Tangents::new(data, pixels, self.pieces, &[]);
+        let with = |mut losses: Vec<f64>, take: usize, index: usize| {
+            let base = tangents.base(take, index);
+            let (roots, residuals) = whiten(data, take, index, &base, self.noise);
+            let measured = &data.takes[take].signal_dn[index * count..(index + 1) * count];
+            let tails = tails(measured, &base, &roots, &residuals);
+            for ((loss, residual), tail) in losses.iter_mut().zip(&residuals).zip(tails) {
+                *loss += residual * residual + tail;
+            }
+            losses
+        };
+        let sets: Vec<(usize, usize)> = data
+            .sets()
+            .into_iter()
+            .enumerate()
+            .filter(|&(n, _)| (self.counts)(n))
+            .map(|(_, set)| set)
+            .collect();
+        let of_chunk = |sets: &[(usize, usize)]| {
+            let indices = |&(take, set): &(usize, usize)| {
+                let frames = data.takes[take].frames;
+                (set * frames..(set + 1) * frames).map(move |index| (take, index))
+            };
+            let none = vec![0.0; count];
+            sets.iter().flat_map(indices).fold(none, |losses, (take, index)| with(losses, take, index))
+        };
+        let join = |mut losses: Vec<f64>, others: Vec<f64>| {
+            losses.iter_mut().zip(others).for_each(|(loss, other)| *loss += other);
+            losses
+        };
+        let chunk = sets.len().div_ceil(CHUNKS).max(1);
+        joined(&sets, chunk, of_chunk, join).unwrap_or_else(|| vec![0.0; count])
+    }
+
+    /// Of each pixel the numbers `there`, where they fit no worse than those it has, whose loss is `losses`; that of what is taken is kept there. Whether
+    /// all were taken.
+    fn better(&self, pixels: &mut Arc<Pixels>, losses: &mut [f64], there: &Arc<Pixels>) -> bool {
+        let of_there = self.losses(there);
+        let better = |(pixel, (loss, there)): (usize, (&f64, &f64))| {
+            (*there <= *loss || !loss.is_finite() && there.is_finite()).then_some(pixel)
+        };
+        let better: Vec<usize> = losses.iter().zip(&of_there).enumerate().filter_map(better).collect();
+        if better.len() == losses.len() {
+            *pixels = Arc::clone(there);
+            losses.copy_from_slice(&of_there);
+            return true;
+        }
+        let pixels = Arc::make_mut(pixels);
+        for pixel in better {
+            losses[pixel] = of_there[pixel];
+            pixels.amplitude_1m_dn[pixel] = there.amplitude_1m_dn[pixel];
+            pixels.phase_rad[pixel] = there.phase_rad[pixel];
+            pixels.constant_1m_dn[pixel] = there.constant_1m_dn[pixel];
+            pixels.ambient_dn[pixel] = there.ambient_dn[pixel];
+        }
+        false
+    }
+}
+
+/// The pixels with their own numbers as they fit best, but for what their tangents leave, beside `pieces` as they are: each begins where it fits best of
+/// `pixels` and `others`, and stays there where no share of its step leads it downhill.
+pub fn settled(
+    data: &Data,
+    pixels: &Arc<Pixels>,
+    others: Option<&Arc<Pixels>>,
+    rounds: usize,
+    pieces: &[Piece],
+    noise: Noise,
+    counts: &(dyn Fn(usize) -> bool + Sync),
+) -> Arc<Pixels> {
+    let known: Vec<Piece> = pieces.iter().map(|piece| Piece { free: Vec::new(), ..piece.clone() }).collect();
+    let bench = Bench { data, pieces: &known, noise, counts };
+    let mut here = Arc::clone(pixels);
+    let mut losses = bench.losses(&here);
+    if let Some(others) = others {
+        bench.better(&mut here, &mut losses, others);
+    }
+    for _ in 0..rounds {
+        let (tangents, _) = Tangents::new(data, &here, &known, &[]);
+        let step = Gram::of(data, &tangents, noise, counts).project(None).own(&DVector::zeros(0));
+        let (start, before) = (Arc::clone(&here), losses.iter().sum::<f64>());
+        for share in SHARES {
+            if bench.better(&mut here, &mut losses, &Arc::new(moved(&start, &step, share))) {
+                break;
+            }
+        }
+        if losses.iter().sum::<f64>() > (1.0 - SLOW) * before {
+            break;
+        }
+    }
+    here
+}
+
+/// The pixels with their own numbers moved by a `share` of a step.
+pub fn moved(pixels: &Pixels, own: &[Vector4<f64>], share: f64) -> Pixels {
+    const { assert!(OWN == 4) }
+    let mut moved = pixels.clone();
+    for (pixel, step) in own.iter().enumerate() {
+        moved.amplitude_1m_dn[pixel] += share * step[0];
+        moved.phase_rad[pixel] += share * step[1];
+        moved.constant_1m_dn[pixel] += share * step[2];
+        moved.ambient_dn[pixel] += share * step[3];
+    }
+    moved
+}
