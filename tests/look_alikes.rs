@@ -121,10 +121,22 @@ fn lines_of_different_frequencies_are_no_flicker() {
 #[test]
 fn a_lamp_is_one_source_although_the_mains_wander() {
     let verdict = verdict_of("four-sweep,four-rail", |sample| {
-        let frequency_hz = [103.3, 103.35][sample.recording];
+        let frequency_hz = [101.3, 101.35][sample.recording];
         with(sample, 1.2 * (TAU * frequency_hz * time_s(sample) + sample.recording as f64).cos())
     });
     assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
+}
+
+/// Light of no lamp on the mains, be it as strong and as even (that of a second camera, a screen): neither it nor what frames every 25 ms see like it, 48.3 and
+/// 128.3 Hz and so on, is near twice the mains' frequency.
+#[test]
+fn light_that_is_not_at_twice_the_mains_frequency_is_no_lamps() {
+    let verdict = verdict_of("four-sweep,four-rail", |sample| {
+        with(sample, 1.2 * (TAU * 88.3 * time_s(sample) + sample.recording as f64).cos())
+    });
+    is_unexplained(&verdict, "time_s");
+    let shape = verdict["located"][0]["shape"].as_str().unwrap();
+    assert!(shape.ends_with("Hz that is not twice the mains' frequency"), "{shape}");
 }
 
 /// A bit of the converter that comes late is one place of each of its periods: a wave over the codes says the most of it, and is not what it is.

@@ -60,6 +60,8 @@ const DRIFT_CYCLES: f64 = 3.0;
 const MAINS_DRIFT_CYCLES: f64 = 1.5;
 const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
 pub const MAINS_OFF: f64 = 2e-3;
+/// A generator that is not on the grid is off by more, but hardly by this share.
+const NEAR_MAINS: f64 = 0.02;
 
 /// Whether a frequency, Hz, may be twice the mains'.
 pub fn is_mains(frequency_hz: f64) -> bool {
@@ -133,6 +135,20 @@ impl Series {
     pub fn in_time(&self, ends: (f64, f64)) -> Option<Line> {
         // A line that frames see at rest is a drift.
         strongest(&self.by_take(), ends, self.frame_period_s)
+    }
+
+    /// Whether a line of the ambient light that is near `frequency_hz` may be a lamp's: it is near twice the mains' frequency, or as strong a line is there;
+    /// noise has `inflation` times the variance that was stated.
+    pub fn may_be_lamps(&self, frequency_hz: f64, inflation: f64) -> bool {
+        let takes = self.by_take();
+        let near = |hz: f64, share: f64| {
+            strongest(&takes, (hz * (1.0 - share), hz * (1.0 + share)), self.frame_period_s)
+        };
+        let chi2 = |line: Option<Line>| line.map_or(0.0, |line| line.chi2);
+        let of_mains = TWICE_MAINS_HZ.map(|hz| chi2(near(hz, NEAR_MAINS))).into_iter().fold(0.0, f64::max);
+        let is_near = |hz: &f64| (frequency_hz / hz - 1.0).abs() < NEAR_MAINS;
+        let clearly = CLEARLY_MORE * inflation.max(1.0);
+        TWICE_MAINS_HZ.iter().any(is_near) || chi2(near(frequency_hz, MAINS_OFF)) < of_mains + clearly
     }
 
     /// Whether all recordings see a lamp's flicker at rest: it is a drift to them, and a drift may be a flicker.

@@ -1,4 +1,4 @@
-//! Names that look right and are not: a line of several sources, a wave over the codes that is none.
+//! Names that look right and are not: a line of several sources or of no lamp, a wave over the codes that is none.
 
 use super::data::Data;
 use super::lines::{FLICKER, FLICKER_HZ};
@@ -20,7 +20,7 @@ pub fn misnamed(
 ) -> Option<(&'static str, Place)> {
     // Where nothing of the camera is described, overtones may be anything else that is left.
     let waves = || if data.assumed.camera { None } else { no_wave(data, found, baseline, noise) };
-    several(found, inflation).or_else(waves)
+    no_lamp(found, inflation).or_else(waves)
 }
 
 /// Where something goes with the code that was taken for a wave, but has overtones, or is a step.
@@ -38,17 +38,20 @@ fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Opt
     Some((OF_CODES, Place { coordinate: "code", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }))
 }
 
-/// Where a line is that was taken for a flicker, but has several sources.
-fn several(found: &Found, inflation: f64) -> Option<(&'static str, Place)> {
+/// Where a line is that was taken for a lamp's flicker, but has several sources, or is none that lamps on the mains have.
+fn no_lamp(found: &Found, inflation: f64) -> Option<(&'static str, Place)> {
     let named = found.named.iter().find(|named| named.name == FLICKER)?;
     let shown = shown(&found.fit, inflation);
-    if is_one(&shown) {
-        return None;
-    }
     let clear = |shown: &Shown| shown.size.0 / shown.size.1;
     let clearest = shown.iter().max_by(|a, b| clear(a).total_cmp(&clear(b)))?;
-    let shape = format!("offset, a line of {:.2} Hz that differs from recording to recording", clearest.hz);
-    let looked = found.baseline.series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);
+    let series = &found.baseline.series;
+    let what = match (is_one(&shown), series.may_be_lamps(clearest.hz, inflation)) {
+        (false, _) => "differs from recording to recording",
+        (true, false) => "is not twice the mains' frequency",
+        (true, true) => return None,
+    };
+    let shape = format!("offset, a line of {:.2} Hz that {what}", clearest.hz);
+    let looked = series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);
     let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, clearest.take);
     Some((FLICKER, Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false }))
 }
