@@ -63,7 +63,7 @@ const SINGLE: [(&str, &str, &str, f64); 9] = [
         "relative_amplitude",
         0.1,
     ),
-    ("ambient_flicker", "ambient_flicker:cosine=0.05,sine=0.02,frequency_hz=101.1", "frequency_hz", 101.1),
+    ("ambient_flicker", "ambient_flicker:cosine=0.05,sine=0.02,frequency_hz=103.1", "frequency_hz", 103.1),
     ("encoder_cyclic", "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.137", "period_m", 0.137),
     // The light falls off with the true distance. (A centimetre may be a wall's light, which is more likely before anything is seen: below.)
     ("encoder_offset", "encoder_offset:offset_m=0.02", "offset_m", 0.02),

@@ -121,7 +121,7 @@ fn lines_of_different_frequencies_are_no_flicker() {
 #[test]
 fn a_lamp_is_one_source_although_the_mains_wander() {
     let verdict = verdict_of("four-sweep,four-rail", |sample| {
-        let frequency_hz = [101.3, 101.35][sample.recording];
+        let frequency_hz = [103.3, 103.35][sample.recording];
         with(sample, 1.2 * (TAU * frequency_hz * time_s(sample) + sample.recording as f64).cos())
     });
     assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");

@@ -61,7 +61,7 @@ const MAINS_DRIFT_CYCLES: f64 = 1.5;
 const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
 pub const MAINS_OFF: f64 = 2e-3;
 /// A generator that is not on the grid is off by more, but hardly by this share.
-const NEAR_MAINS: f64 = 0.02;
+const NEAR_MAINS: f64 = 0.05;
 
 /// Whether a frequency, Hz, may be twice the mains'.
 pub fn is_mains(frequency_hz: f64) -> bool {
