@@ -1,9 +1,11 @@
 //! `vuris diagnose`: recovery, silence, the unknown, refusals, and the practice campaigns where they are at hand.
 
 mod diagnosed;
+mod recorded;
 mod rewritten;
 
 use diagnosed::{names, parameter, verdict, vuris};
+use recorded::at_hand;
 use rewritten::{Sample, rewrite};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -299,14 +301,9 @@ fn refusals_say_what_would_be_right() {
 /// The practice campaigns of the project's recordings, where they are at hand: `VURIS_PRACTICE`, or beside the repository.
 #[test]
 fn practice_campaigns_come_out_as_labelled() {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/recordings/practice");
-    let practice = std::env::var_os("VURIS_PRACTICE").map_or(beside, PathBuf::from);
-    let Ok(entries) = std::fs::read_dir(&practice) else {
-        eprintln!("skipped: {} is not there; VURIS_PRACTICE may name another folder", practice.display());
-        return;
-    };
+    let Some(practice) = at_hand("VURIS_PRACTICE", "practice", "") else { return };
     let mut wrong = Vec::new();
-    for entry in entries {
+    for entry in std::fs::read_dir(practice).unwrap() {
         let campaign = entry.unwrap().path();
         let Ok(label) = std::fs::read_to_string(campaign.join("label.json")) else { continue };
         let label: Value = serde_json::from_str(&label).unwrap();

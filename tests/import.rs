@@ -1,8 +1,11 @@
 //! `vuris import`: other programs' pictures, arrays and dumps come out as recordings, code by code; what is wrong or not
 //! known is refused, and then nothing is written.
 
+mod recorded;
+
 use assert_cmd::Command;
 use image::{GrayImage, ImageBuffer, Luma, Rgb, RgbImage};
+use recorded::at_hand;
 use std::f64::consts::TAU;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -571,12 +574,7 @@ fn the_help_shows_an_example_and_the_example_works() {
 /// format's description says of them, without a library: 8 bits behind a table of colours, the last row first.
 #[test]
 fn real_pictures_of_twelve_steps_are_three_recordings() {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/recordings/real");
-    let real = std::env::var_os("VURIS_REAL").map_or(beside, PathBuf::from).join("cfpe");
-    if !real.is_dir() {
-        eprintln!("skipped: {} is not there; VURIS_REAL may name another folder", real.display());
-        return;
-    }
+    let Some(real) = at_hand("VURIS_REAL", "real", "cfpe") else { return };
     let file = |step: usize| real.join(format!("01{step:02}h.bmp")).to_str().unwrap().to_owned();
     let pixels = |step: usize| -> Vec<u32> {
         let bytes = fs::read(file(step)).unwrap();

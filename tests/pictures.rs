@@ -2,8 +2,10 @@
 //! Drawn here, and real ones where they are at hand.
 
 mod diagnosed;
+mod recorded;
 
 use diagnosed::{names, parameter, verdict, vuris};
+use recorded::at_hand;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use vuris::physics::Draws;
@@ -31,8 +33,8 @@ const SIZE: (usize, usize) = (40, 60);
 const GAMMA: f64 = 2.2;
 const CORNER: f64 = 215.0;
 
-/// Pictures of `I = min(255 r (a + b cos(n 30° - phase))^gamma, corner)` with a noise that is little in the dark, where codes end, by nothing of this crate but its random numbers: the
-/// reflectance r changes from place to place between a twentieth and one and a half, so that some pixels are clipped in most frames.
+/// Pictures of `I = min(255 r (a + b cos(n 30° - phase))^gamma, corner)`, by nothing of this crate but its random numbers. The noise is little in the dark, where
+/// codes end; the reflectance r changes from place to place between a twentieth and one and a half, so that some pixels are clipped in most frames.
 fn pictures() -> Vec<u8> {
     let mut draws = Draws::of(11, 1);
     let pixels = SIZE.0 * SIZE.1;
@@ -76,26 +78,15 @@ fn a_power_and_a_corner_are_told_apart() {
 
 // ---------------------------------------------------------------- real
 
-/// Scenes of yongleex/CFPE. The first and third of them came with this product's beginnings, the others were first looked at when all was written but
+/// Scenes of yongleex/CFPE. The first two came with this product's beginnings, the others were first looked at when all was written but
 /// the steps of single pixels (src/diagnose/settling.rs) and the order of candidates far from the data (src/diagnose/completed.rs).
 const SCENES: [&str; 4] = ["01", "04", "06", "08"];
-
-/// Where the real pictures are: `VURIS_REAL`, or beside the repository.
-fn real() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/recordings/real");
-    let real = std::env::var_os("VURIS_REAL").map_or(beside, PathBuf::from).join("cfpe");
-    if !real.is_dir() {
-        println!("SKIPPED: {} is absent; VURIS_REAL may name another folder", real.display());
-        return None;
-    }
-    Some(real)
-}
 
 /// In every scene the response is named, and frames that the fit has not seen are predicted to 4.5 DN; so they are, with nothing but the pixels' own
 /// numbers fitted, by the camera that another scene has told of.
 #[test]
 fn real_scenes_name_the_response_and_tell_each_other_of_it() {
-    let Some(real) = real() else { return };
+    let Some(real) = at_hand("VURIS_REAL", "real", "cfpe") else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut cameras: Vec<(&str, PathBuf)> = Vec::new();
     let is_there = |scene: &&str| real.join(format!("{scene}00h.bmp")).exists();

@@ -1,5 +1,8 @@
 //! Ranges of recorded campaigns against their encoder, by the reference in floating point.
 
+mod recorded;
+
+use recorded::at_hand;
 use std::path::{Path, PathBuf};
 use vuris::frames::RawSets;
 use vuris::problem::Result;
@@ -87,16 +90,9 @@ fn the_committed_campaign_is_read_in_full() {
     assert_eq!((recording.range_m(102, 0, 0), recording.range_m(0, 18, 0)), (None, None));
 }
 
-/// Folder of larger recordings that are not part of the package, beside it or where `VURIS_RECORDINGS` says.
+/// Larger recordings that are not part of the package.
 fn recordings(part: &str) -> Option<PathBuf> {
-    let home = std::env::var_os("VURIS_RECORDINGS")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/recordings"), PathBuf::from);
-    let folder = home.join(part);
-    if !folder.is_dir() {
-        println!("SKIPPED: {} is absent; set VURIS_RECORDINGS to the folder of recordings", folder.display());
-        return None;
-    }
-    Some(folder)
+    at_hand("VURIS_RECORDINGS", "", part)
 }
 
 /// Prints the table of errors (`cargo test -- --nocapture`), and holds the campaigns without a mismatch to it.

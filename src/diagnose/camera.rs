@@ -24,8 +24,8 @@ pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
     for (number, piece) in pieces.iter().enumerate().filter(|(_, piece)| named(piece.effect.name)) {
         // By name where it acts wholly, as far as is known; else with its value.
         let is_whole = |(place, column): (usize, &Column)| {
-            let off_by = || (piece.values[column.parameter] - 1.0).abs();
-            column.piece == number && off_by() < WHOLE_SIGMAS * judgement.fit.sigma(place)
+            column.piece == number
+                && (piece.values[column.parameter] - 1.0).abs() < WHOLE_SIGMAS * judgement.fit.sigma(place)
         };
         let is_whole = piece.takes.len() == data.takes.len() && columns.iter().enumerate().any(is_whole);
         let by_name = BASELINE.iter().find(|(name, _)| *name == piece.effect.name);

@@ -11,6 +11,16 @@ use std::sync::Arc;
 /// The numbers of a pixel that are fitted beside everything else: amplitude at 1 m, phase, constant light at 1 m, ambient light.
 pub const OWN: usize = 4;
 
+/// These numbers of all pixels.
+pub fn own_values(pixels: &Pixels) -> [&[f64]; OWN] {
+    [&pixels.amplitude_1m_dn, &pixels.phase_rad, &pixels.constant_1m_dn, &pixels.ambient_dn]
+}
+
+/// The same, to be changed.
+pub fn own_values_mut(pixels: &mut Pixels) -> [&mut [f64]; OWN] {
+    [&mut pixels.amplitude_1m_dn, &mut pixels.phase_rad, &mut pixels.constant_1m_dn, &mut pixels.ambient_dn]
+}
+
 /// A column: one fitted number.
 #[derive(Debug, Clone)]
 pub struct Column {
@@ -67,16 +77,12 @@ const STEP: f64 = 1e-3;
 /// The same for shapes, which may be less than is usual: a frequency may be multiplied by a long time.
 const SHAPE_STEP: f64 = 1e-6;
 const POSITION_STEP_M: f64 = 1e-6;
+/// Steps of a pixel's own numbers, in their units.
+const OWN_STEPS: [f64; OWN] = [0.1, 1e-4, 0.1, 0.1];
 
 fn own_pixels(pixels: &Pixels, number: usize) -> (Pixels, f64) {
-    let mut changed = pixels.clone();
-    let (values, step): (&mut [f64], f64) = match number {
-        0 => (&mut changed.amplitude_1m_dn, 0.1),
-        1 => (&mut changed.phase_rad, 1e-4),
-        2 => (&mut changed.constant_1m_dn, 0.1),
-        _ => (&mut changed.ambient_dn, 0.1),
-    };
-    values.iter_mut().for_each(|value| *value += step);
+    let (mut changed, step) = (pixels.clone(), OWN_STEPS[number]);
+    own_values_mut(&mut changed)[number].iter_mut().for_each(|value| *value += step);
     (changed, step)
 }
 

@@ -1,5 +1,6 @@
 //! Sums of parts that are made side by side: the same to the last bit on any number of threads.
 
+use super::data::Data;
 use rayon::prelude::*;
 
 /// So many parts are made for each thread before they are joined.
@@ -24,6 +25,30 @@ pub fn joined<T: Sync, R: Send>(
         }
     }
     all
+}
+
+/// Frames are summed in so many chunks of sets.
+const CHUNKS: usize = 16;
+
+/// What `with` makes, one after the other, of every frame (recording, and number of the frame within it) of the sets of which `counts` is true (number of the
+/// set, over all recordings), from `none` on.
+pub fn summed<R: Clone + Send + Sync>(
+    data: &Data,
+    counts: &(dyn Fn(usize) -> bool + Sync),
+    none: &R,
+    with: impl Fn(R, usize, usize) -> R + Sync,
+    join: impl FnMut(R, R) -> R,
+) -> R {
+    let counted = data.sets().into_iter().enumerate().filter(|&(number, _)| counts(number));
+    let sets: Vec<(usize, usize)> = counted.map(|(_, set)| set).collect();
+    let of_chunk = |sets: &[(usize, usize)]| {
+        let indices = |&(take, set): &(usize, usize)| {
+            let frames = data.takes[take].frames;
+            (set * frames..(set + 1) * frames).map(move |index| (take, index))
+        };
+        sets.iter().flat_map(indices).fold(none.clone(), |sum, (take, index)| with(sum, take, index))
+    };
+    joined(&sets, sets.len().div_ceil(CHUNKS).max(1), of_chunk, join).unwrap_or_else(|| none.clone())
 }
 
 #[cfg(test)]

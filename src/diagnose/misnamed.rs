@@ -45,10 +45,10 @@ fn no_lamp(found: &Found, inflation: f64) -> Option<(&'static str, Place)> {
     let clear = |shown: &Shown| shown.size.0 / shown.size.1;
     let clearest = shown.iter().max_by(|a, b| clear(a).total_cmp(&clear(b)))?;
     let series = &found.baseline.series;
-    let what = match (is_one(&shown), series.may_be_lamps(clearest.hz, inflation)) {
-        (false, _) => "differs from recording to recording",
-        (true, false) => "is not twice the mains' frequency",
-        (true, true) => return None,
+    let what = match is_one(&shown) {
+        false => "differs from recording to recording",
+        true if !series.may_be_lamps(clearest.hz, inflation) => "is not twice the mains' frequency",
+        true => return None,
     };
     let shape = format!("offset, a line of {:.2} Hz that {what}", clearest.hz);
     let looked = series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);

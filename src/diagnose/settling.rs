@@ -1,9 +1,9 @@
 //! The pixels' own numbers beside parameters that are known: each pixel goes by itself, and none to where it fits worse.
 
-use super::columns::{OWN, Tangents};
+use super::columns::{Tangents, own_values, own_values_mut};
 use super::data::Data;
 use super::gram::Gram;
-use super::in_order::joined;
+use super::in_order::summed;
 use super::noise::Noise;
 use super::pieces::Piece;
 use super::whiten::{tails, whiten};
@@ -16,8 +16,6 @@ use std::sync::Arc;
 const SHARES: [f64; 3] = [1.0, 0.25, 0.0625];
 /// A step that takes away a smaller share of what is left is the last one.
 const SLOW: f64 = 0.01;
-/// Sets are summed in so many chunks.
-const CHUNKS: usize = 16;
 
 /// What the model stands on: recordings, effects as they are, noise, and the sets (number over all recordings) that count.
 #[derive(Clone, Copy)]
@@ -43,27 +41,11 @@ impl Bench<'_> {
             }
             losses
         };
-        let sets: Vec<(usize, usize)> = data
-            .sets()
-            .into_iter()
-            .enumerate()
-            .filter(|&(n, _)| (self.counts)(n))
-            .map(|(_, set)| set)
-            .collect();
-        let of_chunk = |sets: &[(usize, usize)]| {
-            let indices = |&(take, set): &(usize, usize)| {
-                let frames = data.takes[take].frames;
-                (set * frames..(set + 1) * frames).map(move |index| (take, index))
-            };
-            let none = vec![0.0; count];
-            sets.iter().flat_map(indices).fold(none, |losses, (take, index)| with(losses, take, index))
-        };
         let join = |mut losses: Vec<f64>, others: Vec<f64>| {
             losses.iter_mut().zip(others).for_each(|(loss, other)| *loss += other);
             losses
         };
-        let chunk = sets.len().div_ceil(CHUNKS).max(1);
-        joined(&sets, chunk, of_chunk, join).unwrap_or_else(|| vec![0.0; count])
+        summed(data, self.counts, &vec![0.0; count], with, join)
     }
 
     /// Of each pixel the numbers `there`, where they fit no worse than those it has, whose loss is `losses`; that of what is taken is kept there. Whether
@@ -79,13 +61,10 @@ impl Bench<'_> {
             losses.copy_from_slice(&of_there);
             return true;
         }
-        let pixels = Arc::make_mut(pixels);
+        let mut own = own_values_mut(Arc::make_mut(pixels));
         for pixel in better {
             losses[pixel] = of_there[pixel];
-            pixels.amplitude_1m_dn[pixel] = there.amplitude_1m_dn[pixel];
-            pixels.phase_rad[pixel] = there.phase_rad[pixel];
-            pixels.constant_1m_dn[pixel] = there.constant_1m_dn[pixel];
-            pixels.ambient_dn[pixel] = there.ambient_dn[pixel];
+            own.iter_mut().zip(own_values(there)).for_each(|(own, there)| own[pixel] = there[pixel]);
         }
         false
     }
@@ -127,13 +106,9 @@ pub fn settled(
 
 /// The pixels with their own numbers moved by a `share` of a step.
 pub fn moved(pixels: &Pixels, own: &[Vector4<f64>], share: f64) -> Pixels {
-    const { assert!(OWN == 4) }
     let mut moved = pixels.clone();
-    for (pixel, step) in own.iter().enumerate() {
-        moved.amplitude_1m_dn[pixel] += share * step[0];
-        moved.phase_rad[pixel] += share * step[1];
-        moved.constant_1m_dn[pixel] += share * step[2];
-        moved.ambient_dn[pixel] += share * step[3];
+    for (number, values) in own_values_mut(&mut moved).into_iter().enumerate() {
+        values.iter_mut().zip(own).for_each(|(value, step)| *value += share * step[number]);
     }
     moved
 }

@@ -1,15 +1,12 @@
 //! Where a fit starts: the pixels' own numbers by linear least squares.
 
 use super::columns::OWN;
-use super::data::{Data, Take};
-use super::in_order::joined;
+use super::data::Data;
+use super::in_order::summed;
 use crate::bench::chain;
 use crate::physics::{Chain, Memory, Pixels};
 use nalgebra::{Matrix4, Vector4};
 use std::sync::Arc;
-
-/// Sets are summed in so many chunks.
-const CHUNKS: usize = 16;
 
 /// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
 pub const BACKGROUND_M: f64 = 1.0;
@@ -50,8 +47,9 @@ pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixel
         unit(0.0, 0.0, 1.0, 0.0),
         unit(0.0, 0.0, 0.0, 1.0),
     ];
-    let none = || vec![(Matrix4::<f64>::zeros(), Vector4::<f64>::zeros()); count];
-    let add = |mut normal: Vec<(Matrix4<f64>, Vector4<f64>)>, take: &Take, index: usize| {
+    let none = vec![(Matrix4::<f64>::zeros(), Vector4::<f64>::zeros()); count];
+    let add = |mut normal: Vec<(Matrix4<f64>, Vector4<f64>)>, take: usize, index: usize| {
+        let take = &data.takes[take];
         let expose = |chain: &Chain| chain.expose(take.moments[index], Memory::default()).signal_dn;
         let signals = basis.each_ref().map(expose);
         let measured = &take.signal_dn[index * count..(index + 1) * count];
@@ -63,16 +61,6 @@ pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixel
         }
         normal
     };
-    let sets: Vec<(usize, (usize, usize))> =
-        data.sets().into_iter().enumerate().filter(|&(number, _)| counts(number)).collect();
-    let chunk = sets.len().div_ceil(CHUNKS).max(1);
-    let of_chunk = |sets: &[(usize, (usize, usize))]| {
-        let indices = |&(_, (take, set)): &(usize, (usize, usize))| {
-            let take = &data.takes[take];
-            (set * take.frames..(set + 1) * take.frames).map(move |index| (take, index))
-        };
-        sets.iter().flat_map(indices).fold(none(), |normal, (take, index)| add(normal, take, index))
-    };
     let join = |mut normal: Vec<(Matrix4<f64>, Vector4<f64>)>, others: Vec<_>| {
         normal.iter_mut().zip(others).for_each(|(sum, other): (_, (Matrix4<f64>, Vector4<f64>))| {
             sum.0 += other.0;
@@ -80,7 +68,7 @@ pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixel
         });
         normal
     };
-    let normal = joined(&sets, chunk, of_chunk, join).unwrap_or_else(none);
+    let normal = summed(data, counts, &none, add, join);
     let mut numbers = [(); OWN].map(|()| vec![0.0; count]);
     for (pixel, (matrix, vector)) in normal.iter().enumerate() {
         let solution = matrix.svd(true, true).solve(vector, 1e-9 * matrix.norm()).unwrap_or_default();
