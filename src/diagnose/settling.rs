@@ -112,3 +112,47 @@ pub fn moved(pixels: &Pixels, own: &[Vector4<f64>], share: f64) -> Pixels {
     }
     moved
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{injection, taken};
+    use crate::diagnose::fit::unfitted;
+    use crate::diagnose::stated_noise;
+    use crate::frames::Geometry;
+
+    /// Of two places the better one, pixel by pixel; one that is none is no place to go.
+    #[test]
+    fn no_pixel_goes_where_it_fits_worse() {
+        let size = Geometry { width: 16, height: 12 };
+        let recordings = taken(size, 2, &[injection("encoder_offset:offset_m=0").unwrap()], &["four-rail"]);
+        let data = Data::of(&recordings.unwrap(), Vec::new()).unwrap();
+        let noise = stated_noise(&data);
+        let bench = Bench { data: &data, pieces: &[], noise, counts: &|_| true };
+        let good = unfitted(&data, noise).pixels;
+        let off = |first: usize, by_rad: f64| {
+            let mut pixels = Pixels::clone(&good);
+            pixels.phase_rad.iter_mut().skip(first).step_by(3).for_each(|phase_rad| *phase_rad += by_rad);
+            Arc::new(pixels)
+        };
+        let is_good = |pixels: &Pixels| own_values(pixels) == own_values(&good);
+        for by_rad in [0.5, f64::NAN] {
+            let mut here = off(0, 0.5);
+            let mut losses = bench.losses(&here);
+            assert!(!bench.better(&mut here, &mut losses, &off(1, by_rad)), "{by_rad}: all were taken");
+            assert!(is_good(&here) && losses == bench.losses(&good), "{by_rad}");
+            // What is no number is left for what is one.
+            let mut here = off(0, by_rad);
+            let mut losses = bench.losses(&here);
+            assert!(bench.better(&mut here, &mut losses, &good) && is_good(&here), "{by_rad}");
+        }
+        let [here, others] = [off(0, 0.5), off(1, 0.5)];
+        let began = settled(&data, &here, Some(&others), 0, &[], noise, &|_| true);
+        assert!(is_good(&began));
+        // And from the wrong place downhill.
+        let [before, after] = [here.clone(), settled(&data, &here, None, 8, &[], noise, &|_| true)]
+            .map(|pixels| bench.losses(&pixels));
+        assert!(after.iter().zip(&before).all(|(after, before)| after <= before));
+        assert!(after.iter().sum::<f64>() < 0.5 * before.iter().sum::<f64>());
+    }
+}
