@@ -302,10 +302,11 @@ fn refusals_say_what_would_be_right() {
 #[test]
 fn practice_campaigns_come_out_as_labelled() {
     let Some(practice) = at_hand("VURIS_PRACTICE", "practice", "") else { return };
-    let mut wrong = Vec::new();
-    for entry in std::fs::read_dir(practice).unwrap() {
+    let (mut labels, mut wrong) = (0, Vec::new());
+    for entry in std::fs::read_dir(&practice).unwrap() {
         let campaign = entry.unwrap().path();
         let Ok(label) = std::fs::read_to_string(campaign.join("label.json")) else { continue };
+        labels += 1;
         let label: Value = serde_json::from_str(&label).unwrap();
         let verdict = verdict(&campaign);
         let listed = |value: &Value| {
@@ -328,6 +329,7 @@ fn practice_campaigns_come_out_as_labelled() {
             wrong.push(format!("{}: {label} but {} {found:?}", campaign.display(), verdict["verdict"]));
         }
     }
+    assert!(labels > 0, "no label.json in {}", practice.display());
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 

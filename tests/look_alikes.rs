@@ -139,6 +139,25 @@ fn light_that_is_not_at_twice_the_mains_frequency_is_no_lamps() {
     assert!(shape.ends_with("Hz that is not twice the mains' frequency"), "{shape}");
 }
 
+/// So it is beside an effect that repeats from set to set, and has lines wherever sets do: of those near twice the mains' frequency none is a lamp's.
+#[test]
+fn light_that_is_no_lamps_is_none_beside_what_repeats_from_set_to_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let droop = ["illumination_droop:relative=0.065"];
+    let campaign = campaign(folder.path(), SIZE, "four-sweep,four-rail", &droop);
+    rewrite(&campaign, |sample| {
+        with(sample, 1.2 * (TAU * 88.3 * time_s(sample) + sample.recording as f64).cos())
+    });
+    let verdict = verdict(&campaign);
+    assert_eq!(names(&verdict), ["illumination_droop"], "{verdict:#}");
+    let places = verdict["located"].as_array().unwrap();
+    let of_no_lamp = |place: &Value| {
+        place["coordinate"] == "time_s"
+            && place["shape"].as_str().unwrap().ends_with("Hz that is not twice the mains' frequency")
+    };
+    assert!(places.iter().any(of_no_lamp), "{verdict:#}");
+}
+
 /// A bit of the converter that comes late is one place of each of its periods: a wave over the codes says the most of it, and is not what it is.
 #[test]
 fn a_bit_that_comes_late_is_no_wave() {

@@ -1,4 +1,4 @@
-//! An effect that says with one number what it may say with others in another way: far from the baseline it needs them all, or what it cannot say alone is
+//! An effect that says with few numbers what it may say with more in another way: far from the baseline it needs them all, or what it cannot say alone is
 //! another effect's.
 
 use super::data::Data;
@@ -21,12 +21,14 @@ pub struct Completed {
 }
 
 impl Completed {
-    /// The fit with all numbers of what `fitted` says with one number instead of others, if there is such an effect and they are needed.
+    /// The fit with all numbers of what `fitted` says with few instead of more, if there is such an effect and they are needed.
     pub fn of(data: &Data, fitted: &Fit, noise: Noise) -> Option<Self> {
         let mut pieces = fitted.pieces.clone();
         for piece in &mut pieces {
             let parameters = piece.effect.parameters;
-            if piece.free.iter().any(|&number| parameters[number].is_instead) {
+            let instead = piece.free.iter().filter(|&&number| parameters[number].is_instead).count();
+            let others = parameters.iter().filter(|p| !p.is_instead && !p.is_shape()).count();
+            if 0 < instead && instead < others {
                 piece.free = (0..parameters.len()).filter(|&number| !parameters[number].is_choice).collect();
             }
         }

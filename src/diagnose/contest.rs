@@ -45,9 +45,9 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
     };
     let before = of_part(&current.pieces);
     let fits: Vec<Fit> = entrants.iter().map(|entrant| of_part(&entrant.pieces)).collect();
-    let explained = |(entrant, fit): (&Entrant, &Fit)| {
+    let explained = |left: &dyn Fn(&Fit) -> f64, (entrant, fit): (&Entrant, &Fit)| {
         let numbers = fit.columns.len().saturating_sub(before.columns.len()) as f64;
-        let all = (before.counted() + before.unreached) - (fit.counted() + fit.unreached);
+        let all = left(&before) - left(fit);
         let no_chance = all - numbers - BY_CHANCE * (2.0 * numbers).sqrt();
         Explained {
             name: entrant.name,
@@ -58,8 +58,15 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
             form: tolerance(entrant.name),
         }
     };
-    let stay = staying(&entrants.iter().zip(&fits).map(explained).collect::<Vec<_>>());
-    entrants.into_iter().zip(stay).filter(|(_, stays)| *stays).map(|(entrant, _)| entrant).collect()
+    let stay = |left: &dyn Fn(&Fit) -> f64| {
+        staying(&entrants.iter().zip(&fits).map(|both| explained(left, both)).collect::<Vec<_>>())
+    };
+    let mut stays = stay(&|fit| fit.counted() + fit.unreached);
+    if before.is_far() {
+        // What takes residuals from many standard deviations to a few explains next to nothing of what counts.
+        stays.iter_mut().zip(stay(&Fit::left)).for_each(|(stays, by_all)| *stays |= by_all);
+    }
+    entrants.into_iter().zip(stays).filter(|(_, stays)| *stays).map(|(entrant, _)| entrant).collect()
 }
 
 /// What an entrant explains of a part of the sets, chi squared, and by how many numbers.

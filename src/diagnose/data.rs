@@ -62,6 +62,9 @@ pub struct Assumed {
 /// Above so many codes below full scale a sample is clipped, or about to be.
 const CLIPPED_DN: u32 = 2;
 
+/// Numbers that each pixel has at least: amplitude, phase, and light that does not follow the modulation.
+const LEAST_OWN: usize = 3;
+
 /// So many signals say from where to where signals go.
 const SPANNING: usize = 100_000;
 
@@ -96,7 +99,39 @@ impl Data {
         let grid = Grid::of(geometry, frames);
         let seen = |grid| Self::seen(recordings, &camera, &library, assumed, &target, grid);
         let close = grid.close(&target).map(seen).transpose()?;
-        Ok(Self { close: close.map(Arc::new), ..seen(grid)? })
+        let data = Self { close: close.map(Arc::new), ..seen(grid)? };
+        if data.free_shares().into_iter().all(|share| share <= 0.0) {
+            let samples = data.samples_of_pixels().into_iter().max().unwrap_or(0);
+            return Err(Problem::in_file(
+                &first.folder,
+                format_args!("no pixel has more than {samples} samples, and each has {LEAST_OWN} numbers of its own (amplitude, phase, offset) or more"),
+            )
+            .expected("more samples than numbers: whatever was recorded agrees with the simulation, and nothing can be tested")
+            .remedy("record at least four steps a set, or sets at several distances"));
+        }
+        Ok(data)
+    }
+
+    /// How many samples of each pixel count.
+    fn samples_of_pixels(&self) -> Vec<usize> {
+        let pixels = self.pixels();
+        let mut samples = vec![0; pixels];
+        for frame in self.takes.iter().flat_map(|take| take.signal_dn.chunks(pixels)) {
+            samples
+                .iter_mut()
+                .zip(frame)
+                .for_each(|(samples, signal)| *samples += usize::from(!signal.is_nan()));
+        }
+        samples
+    }
+
+    /// Of each pixel, what share of its samples' noise is left beside its own numbers, which are fitted to them.
+    pub fn free_shares(&self) -> Vec<f64> {
+        let share = |(pixel, samples): (usize, usize)| {
+            let own = LEAST_OWN + usize::from(self.tells_constant(pixel));
+            samples.saturating_sub(own) as f64 / samples.max(1) as f64
+        };
+        self.samples_of_pixels().into_iter().enumerate().map(share).collect()
     }
 
     /// The pixels of `grid`.
@@ -226,10 +261,7 @@ impl Data {
     pub fn with_share_of_included(&self, share: f64) -> Self {
         let mut data = self.clone();
         for active in data.takes.iter_mut().flat_map(|take| &mut take.included) {
-            let parameters = active.effect.parameters.iter().zip(&mut active.values);
-            for (parameter, value) in parameters.filter(|(parameter, _)| !parameter.is_shape()) {
-                *value = parameter.off + share * (*value - parameter.off);
-            }
+            active.values = active.effect.with_share(&active.values, share);
         }
         data
     }

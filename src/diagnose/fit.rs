@@ -53,16 +53,26 @@ fn start(data: &Data, noise: Noise, counts: &(dyn Fn(usize) -> bool + Sync)) -> 
     })
 }
 
-/// Of what the camera includes, so much is there at each step; how often pixels are settled at each.
+/// Of what the camera includes, or of effects that are known, so much is there at each step; how often pixels are settled at each.
 const APPROACH: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Residuals count as 4 standard deviations at most, so that a pixel that is far off moves by steps.
 const SETTLINGS: usize = 8;
+
+/// The pixels' own numbers beside `pieces` that are known, from nothing but `data`: led by steps to where the effects are as strong as that.
+pub fn beside(data: &Data, pieces: &[Piece], noise: Noise) -> Arc<Pixels> {
+    APPROACH.into_iter().fold(start(data, noise, &|_| true), |pixels, share| {
+        let pieces: Vec<Piece> = pieces.iter().map(|piece| piece.with_share(share)).collect();
+        settled(data, &pixels, None, SETTLINGS, &pieces, noise, &|_| true)
+    })
+}
 
 /// Iterations of Gauss and Newton at most: the pixels' own numbers start close, a response that is far from linear does not.
 const ITERATIONS: usize = 12;
 /// A step that makes the sum of squares so many times greater is damped (Levenberg 1944, Marquardt 1963).
 const WORSE: f64 = 1.01;
 const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
+/// A step that promises to take away so much is not refused before the pixels have settled.
+const UNSETTLED: f64 = 100.0;
 /// Near the noise all steps that are still to come are taken to lower chi squared by so many times what the next one promises at most.
 const HOPE: f64 = 3.0;
 
@@ -189,14 +199,24 @@ impl Model {
     ) -> Option<Self> {
         DAMPINGS.into_iter().find_map(|damping| {
             let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), damping);
+            let settle = |pixels: &Arc<Pixels>| {
+                settled(data, pixels, Some(&self.pixels), SETTLINGS, &pieces, noise, counts)
+            };
             if self.round.is_far() {
-                pixels = settled(data, &pixels, Some(&self.pixels), SETTLINGS, &pieces, noise, counts);
+                pixels = settle(&pixels);
             }
-            let round = Round::new(data, &pixels, &pieces, noise, counts);
-            let is_taken = match may_climb {
+            let mut round = Round::new(data, &pixels, &pieces, noise, counts);
+            let takes = |round: &Round| match may_climb {
                 true => round.loss() <= WORSE * self.round.loss() && round.left().is_finite(),
                 false => round.left() <= self.round.left(),
             };
+            let mut is_taken = takes(&round);
+            // What pixels nearly absorb is large where it shows little: what is wrong with the step may be theirs.
+            if !is_taken && !self.round.is_far() && self.round.gain > UNSETTLED {
+                pixels = settle(&pixels);
+                round = Round::new(data, &pixels, &pieces, noise, counts);
+                is_taken = takes(&round);
+            }
             let is_slow = round.loss() > (1.0 - SLOW) * self.round.loss();
             let is_stuck = is_slow && round.is_far();
             let came_down = round.left() <= self.round.left();

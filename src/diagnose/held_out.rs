@@ -1,33 +1,17 @@
 //! The fit on sets that it has not seen.
 //!
 //! Groups of four neighbouring sets are dealt to two folds; each fold is predicted by a model whose pixels and parameters are fitted to the other one. Of a few
-//! sets, every other frame of either half of the image is predicted: by parameters that are fitted to the other half, and pixels of the frames between.
+//! sets, frames of either half of the image are predicted, some at a time: by parameters that are fitted to the other half, and pixels of the other frames.
 
 use super::columns::Tangents;
-use super::data::{Data, Take};
-use super::fit::{Fit, fit, improved};
-use super::jitters::{self, Jitters};
+use super::data::Data;
+use super::fit::{Fit, beside, fit, improved};
+use super::held_frames::Holding;
+use super::jitters::Jitters;
 use super::noise::Noise;
-use super::settling::settled;
-use super::whiten::{tails, whiten};
-use crate::spec::SCHEMES;
-use crate::units::phase_rad;
-use num_complex::Complex64;
+use super::seen::{Agreement, Seen, agreement, seen};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Agreement of a prediction with the recordings.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Agreement {
-    /// Chi squared a sample.
-    pub chi2_per_dof: f64,
-    /// Root mean square of the difference of raw frames, DN: of all samples that count, as they are.
-    pub rms_dn: f64,
-    /// The same of each frame's mean difference, DN.
-    pub frame_mean_rms_dn: f64,
-    /// The same of the distance that a set shows, its pixels' mean, m.
-    pub distance_rms_m: f64,
-}
 
 /// Both predictions.
 #[derive(Debug, Clone)]
@@ -48,28 +32,6 @@ pub struct HeldOut {
 const GROUP: usize = 4;
 const FOLDS: usize = 2;
 
-/// What a set shows.
-#[derive(Debug, Clone, Default)]
-struct Seen {
-    /// The fold, or part, in which it was predicted.
-    fold: usize,
-    /// What each frame says of random errors, where these are looked at.
-    jitters: Vec<jitters::Frame>,
-    /// Its recording.
-    take: usize,
-    chi2: f64,
-    /// Minus twice the logarithm of the likelihood, but for a constant.
-    unlikely: f64,
-    samples: usize,
-    /// Squared difference of all samples, DN².
-    square_dn2: f64,
-    /// Squares of the frames' mean differences, DN², and frames.
-    means_dn2: f64,
-    frames: usize,
-    /// Error of the distance, m; not a number where there is none.
-    distance_m: f64,
-}
-
 /// What predicts: what is fitted, what noise its samples have, and which of the jitters of a frame's phase and of its time.
 #[derive(Debug, Clone, Copy)]
 pub struct Predictor<'a> {
@@ -77,12 +39,15 @@ pub struct Predictor<'a> {
     pub fit: &'a Fit,
     /// Noise of single samples.
     pub noise: Noise,
+    /// The noise that likelihoods of all predictors are normalised by.
+    pub reference: Noise,
     /// Whether there are random errors of frames: of their phase, and of their time.
     pub jitters: [bool; 2],
 }
 
 impl Predictor<'_> {
-    fn has_jitters(&self) -> bool {
+    /// Whether frames have random errors.
+    pub fn has_jitters(&self) -> bool {
         self.jitters != [false; 2]
     }
 }
@@ -90,12 +55,14 @@ impl Predictor<'_> {
 /// Predicts every set of `data`, in their order, by `before` and by `after`, neither of which has seen it.
 pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     let is_few = data.sets().len() < FOLDS * GROUP;
+    let holding = if is_few { Holding::of(data) } else { None };
     let predict = |by: Predictor| -> Vec<Seen> {
-        let parts = (0..if is_few { PARTS } else { FOLDS }).flat_map(|part| match is_few {
-            true => predicted_frames(data, by, part),
-            false => predicted(data, by, part, before.fit.is_far()),
-        });
-        parts.collect::<BTreeMap<usize, Seen>>().into_values().collect()
+        let of_half = |half| holding.iter().flat_map(move |holding| predicted_half(data, by, holding, half));
+        let predicted = match is_few {
+            true => (0..HALVES).flat_map(of_half).collect(),
+            false => (0..FOLDS).flat_map(|fold| predicted(data, by, fold, before.fit.is_far())).collect(),
+        };
+        BTreeMap::into_values(predicted).collect()
     };
     let new = predict(after);
     // Jitter predicts no sample.
@@ -119,7 +86,7 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
         after: agreement(&new),
         by_frames: by_frames.collect(),
         z: if scatter > 0.0 { mean / scatter * count.sqrt() } else { 0.0 },
-        sets: if is_few { data.sets().len() } else { old.len() },
+        sets: if is_few { holding.map_or(0, |_| data.sets().len()) } else { old.len() },
     }
 }
 
@@ -142,42 +109,35 @@ fn with_jitters(mut sets: Vec<Seen>, exist: [bool; 2]) -> Vec<Seen> {
     sets
 }
 
-fn agreement(sets: &[Seen]) -> Agreement {
-    let samples = sets.iter().map(|set| set.samples).sum::<usize>().max(1) as f64;
-    let frames = sets.iter().map(|set| set.frames).sum::<usize>().max(1) as f64;
-    let distances: Vec<f64> =
-        sets.iter().map(|set| set.distance_m).filter(|distance| distance.is_finite()).collect();
-    Agreement {
-        chi2_per_dof: sets.iter().map(|set| set.chi2).sum::<f64>() / samples,
-        rms_dn: (sets.iter().map(|set| set.square_dn2).sum::<f64>() / samples).sqrt(),
-        frame_mean_rms_dn: (sets.iter().map(|set| set.means_dn2).sum::<f64>() / frames).sqrt(),
-        distance_rms_m: (distances.iter().map(|d| d * d).sum::<f64>() / distances.len().max(1) as f64).sqrt(),
-    }
-}
+/// Halves of the image.
+const HALVES: usize = 2;
 
-/// Halves of the image times every other frame.
-const PARTS: usize = 4;
-
-/// How often pixels are settled where parameters are known, at most.
-const SETTLING: usize = 3;
-/// A half of the image in every other frame: `(a number of its own for each set, what it shows)`.
-fn predicted_frames(data: &Data, by: Predictor, part: usize) -> Vec<(usize, Seen)> {
+/// A half of the image, some frames at a time: `(a number of its own for each set, what it shows)`.
+fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) -> Vec<(usize, Seen)> {
     let Predictor { fit: of, noise, .. } = by;
-    let (half, odd) = (part / 2, part % 2);
-    let half_of = |pixel: usize| 2 * pixel / data.pixels().max(1);
+    let half_of = |pixel: usize| HALVES * pixel / data.pixels().max(1);
     let elsewhere = data.only(|_, pixel| half_of(pixel) != half);
     let pieces = fit(&elsewhere, Some(of), of.pieces.clone(), noise, &|_| true).pieces;
-    let between = data.only(|frame, pixel| half_of(pixel) == half && frame % 2 != odd);
-    let pixels = settled(&between, &of.pixels, None, SETTLING, &pieces, noise, &|_| true);
-    let held = data.only(|frame, pixel| half_of(pixel) == half && frame % 2 == odd);
-    let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
-    let sets = data.sets().into_iter().enumerate();
-    let of_set = |(number, (take, set))| {
-        let seen = seen(&held, &tangents, by, take, set)?;
-        // Half of the frames have no distance.
-        Some((PARTS * number + part, Seen { distance_m: f64::NAN, fold: part, ..seen }))
+    let every = holding.every;
+    let of_part = |part: usize| {
+        let is_held = |frame: usize| frame % every == part;
+        let between = data.only(|frame, pixel| half_of(pixel) == half && !is_held(frame));
+        // Pixels that were fitted to all frames have seen the ones that are held.
+        let pixels = beside(&between, &pieces, noise);
+        let held = data.only(|frame, pixel| half_of(pixel) == half && is_held(frame));
+        let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
+        let fold = half * every + part;
+        // What predicts has noise of its own.
+        let of_held = holding.variances.iter().skip(part).step_by(every);
+        let variance = of_held.clone().sum::<f64>() / of_held.len().max(1) as f64;
+        let of_set = |(number, (take, set))| {
+            let seen = seen(&held, &tangents, by, take, set)?;
+            // A part of the frames has no distance.
+            Some((HALVES * every * number + fold, Seen { variance, distance_m: f64::NAN, fold, ..seen }))
+        };
+        data.sets().into_iter().enumerate().filter_map(of_set).collect::<Vec<_>>()
     };
-    sets.filter_map(of_set).collect()
+    (0..every).flat_map(of_part).collect()
 }
 
 /// The sets of a fold, by number, seen by a model that was fitted to the others. For the pixels' own numbers one step from what was fitted to all is
@@ -200,68 +160,6 @@ fn predicted(data: &Data, by: Predictor, fold: usize, is_far: bool) -> Vec<(usiz
     sets.filter_map(of_set).collect()
 }
 
-/// What a set shows; nothing where it was left out.
-fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set: usize) -> Option<Seen> {
-    let noise = by.noise;
-    let take = &data.takes[number];
-    let mut seen = Seen { take: number, ..Seen::default() };
-    let mut phasors = vec![(Complex64::default(), Complex64::default()); data.pixels()];
-    for frame in 0..take.frames {
-        let index = set * take.frames + frame;
-        let base = tangents.base(number, index);
-        let (roots, residuals) = whiten(data, number, index, &base, noise);
-        let measured = &take.signal_dn[index * data.pixels()..(index + 1) * data.pixels()];
-        seen.unlikely +=
-            noise.ln_variance(measured, &roots) + tails(measured, &base, &roots, &residuals).sum::<f64>();
-        if by.has_jitters() {
-            let frame = tangents.frame(number, index);
-            let moment = &take.moments[index];
-            seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, 0, moment));
-        }
-        let weight = weight(take, frame);
-        let (mut sum_dn, mut samples) = (0.0, 0);
-        for pixel in (0..data.pixels()).filter(|&pixel| roots[pixel] > 0.0) {
-            let difference_dn = f64::from(measured[pixel]) - base[pixel];
-            seen.chi2 += residuals[pixel] * residuals[pixel];
-            seen.unlikely += residuals[pixel] * residuals[pixel];
-            seen.square_dn2 += difference_dn * difference_dn;
-            sum_dn += difference_dn;
-            samples += 1;
-            if data.target[pixel] {
-                phasors[pixel].0 += weight * (base[pixel] + residuals[pixel] / roots[pixel]);
-                phasors[pixel].1 += weight * base[pixel];
-            }
-        }
-        if samples > 0 {
-            seen.samples += samples;
-            seen.means_dn2 += (sum_dn / samples as f64).powi(2);
-            seen.frames += 1;
-        }
-    }
-    // The pixels' mean, as the paper averages: each with the phasor's length that the model gives it.
-    let sum: Complex64 = phasors.iter().map(|(measured, model)| measured * model.conj()).sum();
-    let moment = &take.moments[set * take.frames];
-    let has_distance = moment.lit && sum != Complex64::default();
-    seen.distance_m = if has_distance { sum.arg() / phase_rad(1.0, moment.frequency_hz) } else { f64::NAN };
-    (seen.samples > 0).then_some(seen)
-}
-
-/// What a frame weighs in its set's phasor: the scheme's coefficients, or those of a plain DFT.
-fn weight(take: &Take, frame: usize) -> Complex64 {
-    let step_rad = |frame: usize| take.moments[frame].step_rad;
-    let is_of = |scheme: &&crate::spec::Scheme| {
-        scheme.angles.len() == take.frames
-            && (0..take.frames).all(|frame| (scheme.angle_rad(frame) - step_rad(frame)).abs() < 1e-4)
-    };
-    match SCHEMES.iter().find(is_of) {
-        Some(scheme) => {
-            let factor = (scheme.irrational.squared() as f64).sqrt();
-            Complex64::new(scheme.in_phase[frame] as f64, factor * scheme.quadrature[frame] as f64)
-        }
-        None => Complex64::from_polar(1.0, step_rad(frame)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -281,7 +179,7 @@ mod tests {
     const PIXELS: usize = GEOMETRY.width * GEOMETRY.height;
 
     fn alone(fit: &Fit, noise: Noise) -> Predictor<'_> {
-        Predictor { fit, noise, jitters: [false; 2] }
+        Predictor { fit, noise, reference: noise, jitters: [false; 2] }
     }
 
     /// A set of 64 frames at each of three distances, with `effects` in so many of the upper pixels.
@@ -325,8 +223,8 @@ mod tests {
 
     /// Odd and even frames tell the p numbers of a pixel alike. So, of its N samples, N - 2 p combinations are predicted by 0 and show their
     /// noise; in the others, p in the odd frames and p in the even ones, either half is predicted by the other and shows the noise of both,
-    /// twice the same: 4 times a squared deviate. Chi squared has the mean N + 2 p and the variance 2 (N - 2 p) + 16 (2 p). A fit that has
-    /// seen what it predicts has the mean N - p and the variance 2 (N - p).
+    /// twice the same: 4 times a squared deviate. Their sum has the mean N + 2 p and the variance 2 (N - 2 p) + 16 (2 p), and chi squared is that over what
+    /// predictions by three numbers have, 1 + 3 / 96. A fit that has seen what it predicts has the mean N - p and the variance 2 (N - p).
     #[test]
     fn held_frames_of_a_few_sets_are_as_far_off_as_their_noise_and_that_of_the_fit() {
         let data = few_sets(Vec::new(), 0);
@@ -339,7 +237,8 @@ mod tests {
         let p: f64 = (0..data.pixels()).map(numbers).sum();
         let n = baseline.samples as f64;
         assert_eq!(baseline.samples, 3 * 64 * data.pixels(), "all samples count");
-        let (mean, deviation) = (n + 2.0 * p, (2.0 * n + 28.0 * p).sqrt());
+        let own = 1.0 + 3.0 / 96.0;
+        let (mean, deviation) = ((n + 2.0 * p) / own, (2.0 * n + 28.0 * p).sqrt() / own);
         let chi2 = held.before.chi2_per_dof * n;
         assert!((chi2 - mean).abs() < 4.0 * deviation, "{chi2}, not {mean} +- {deviation}");
         let (seen, seen_deviation) = (n - p, (2.0 * (n - p)).sqrt());

@@ -2,7 +2,7 @@
 
 use super::data::Data;
 use super::fit::Fit;
-use super::lines::{FLICKER, FLICKER_HZ, is_mains};
+use super::lamps::{FLICKER, FLICKER_HZ, is_mains};
 use crate::physics::cos_sin;
 use nalgebra::{Matrix3, Vector2};
 use std::f64::consts::TAU;

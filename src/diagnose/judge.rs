@@ -9,7 +9,7 @@ use super::location::{LOCATED_NATS, Location};
 use super::mismatch::{Place, places};
 use super::misnamed::misnamed;
 use super::noise::Noise;
-use super::pass::THRESHOLD;
+use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::Piece;
 use super::random::{
     self, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms, of_name, random_effect,
@@ -56,13 +56,13 @@ impl Judgement {
         let excess = self.random.iter().find(|(name, _)| *name == EXCESS_NOISE);
         let square = excess.map_or(0.0, |(_, strength)| strength.value.powi(2));
         let noise = Noise { square: (self.noise.square - square).max(0.0), ..self.noise };
-        Predictor { fit: &self.found.baseline, noise, jitters: [false; 2] }
+        Predictor { fit: &self.found.baseline, noise, reference: self.noise, jitters: [false; 2] }
     }
 
     /// The model with everything that is asserted.
     pub fn with(&self) -> Predictor<'_> {
         let jitters = JITTERS.map(|jitter| self.random.iter().any(|(name, _)| *name == jitter));
-        Predictor { fit: &self.fit, noise: self.noise, jitters }
+        Predictor { fit: &self.fit, noise: self.noise, reference: self.noise, jitters }
     }
 }
 
@@ -76,6 +76,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let is_clear = |place: &&Place| deflated(inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS;
     let unnamed = unlike.as_ref().map(|(_, place)| place).filter(is_clear);
     let mut named = standing(&found, inflation);
+    let are_dropped = named.len() < found.named.len();
     named.retain(|named| unlike.as_ref().is_none_or(|(name, _)| named.name != *name));
     // Where nothing is asserted, nothing is fitted: names that noise brought took its whiteness with them.
     let end = if named.is_empty() { baseline.clone() } else { end };
@@ -103,13 +104,15 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let is_far = found.baseline.is_far_from(&found.fit);
     let shared = random::noise(data, &end);
     let are_raised = seems.is_some() || shared.is_some();
-    let names = if is_far || are_raised { None } else { Names::of(&found, &named, explained) };
+    // Where nothing of the camera is described, several things are left out at once, and a coordinate shows a part of each.
+    let forms = if data.assumed.camera { DISBELIEF } else { 1.0 };
+    let names = if is_far || are_raised { None } else { Names::of(&found, &named, explained, forms) };
     places.extend(excess.map(|excess| of_excess(&excess, end.take)));
     // What still lives where the mismatch lived most was not explained.
     let first = |places: &[Place]| places.first().map(|place| place.coordinate);
     let case = Case {
         named: &named,
-        are_dropped: named.len() < found.named.len(),
+        are_dropped,
         at_random: (at_random.len(), random.is_some()),
         are_outvoted: names.is_some_and(|names| names.are_outvoted(&baseline)),
         is_misnamed: unnamed.is_some(),

@@ -4,6 +4,7 @@ use super::data::Data;
 use super::evidence::tail;
 use super::gaps::{gaps, seen_cycles};
 use super::gram::Whitened;
+use super::lamps::{MAINS_OFF, is_mains};
 use super::periodogram::{ANY, FINENESS, Scan, Sought, Sum, add_powers, chi2, greatest, longest};
 
 /// What frames and sets say of errors that they share.
@@ -14,7 +15,7 @@ pub struct Series {
     /// The sets, in the order in which they were seen.
     pub sets: Vec<SetSeen>,
     /// From a frame to the next, s.
-    frame_period_s: f64,
+    pub frame_period_s: f64,
 }
 
 /// What a set says.
@@ -45,10 +46,6 @@ pub struct Line {
     pub looked: f64,
 }
 
-/// The effect that is a line in time.
-pub const FLICKER: &str = "ambient_flicker";
-/// Lamps flicker with twice the mains' frequency, and not with all others: Hz.
-pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
 /// Periods of an encoder's error: cycles a metre.
 const CYCLES_M: (f64, f64) = (0.6, 250.0);
 /// An encoder's error changes less than what it measures, and is seen at more than one of its phases. A line that has one phase at all places, as places on a
@@ -56,17 +53,8 @@ const CYCLES_M: (f64, f64) = (0.6, 250.0);
 const OF_ENCODER: Sought = Sought { constant: true, steepest: 0.3, most_alike: 0.5 };
 /// Of a line that is seen nearly at rest, so many cycles from frame to frame, all added up, are a drift too.
 const DRIFT_CYCLES: f64 = 3.0;
-/// The same where the line is twice the mains' frequency, which is known beforehand: Hz, and by what share it is off at most.
-const MAINS_DRIFT_CYCLES: f64 = 1.5;
-const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
-pub const MAINS_OFF: f64 = 2e-3;
-/// A generator that is not on the grid is off by more, but hardly by this share.
-const NEAR_MAINS: f64 = 0.05;
-
-/// Whether a frequency, Hz, may be twice the mains'.
-pub fn is_mains(frequency_hz: f64) -> bool {
-    TWICE_MAINS_HZ.iter().any(|mains| (frequency_hz / mains - 1.0).abs() < MAINS_OFF)
-}
+/// The same where the line is twice the mains' frequency, which is known beforehand.
+pub const MAINS_DRIFT_CYCLES: f64 = 1.5;
 
 impl Series {
     /// With one more frame.
@@ -122,7 +110,7 @@ impl Series {
     }
 
     /// What the frames of each recording say of the ambient light.
-    fn by_take(&self) -> Vec<Vec<(f64, Sum)>> {
+    pub fn by_take(&self) -> Vec<Vec<(f64, Sum)>> {
         let takes = self.frames.iter().map(|frame| frame.0 + 1).max().unwrap_or(0);
         let of_take = |take: usize| {
             let frames = self.frames.iter().filter(|frame| frame.0 == take);
@@ -135,27 +123,6 @@ impl Series {
     pub fn in_time(&self, ends: (f64, f64)) -> Option<Line> {
         // A line that frames see at rest is a drift.
         strongest(&self.by_take(), ends, self.frame_period_s)
-    }
-
-    /// Whether a line of the ambient light that is near `frequency_hz` may be a lamp's: it is near twice the mains' frequency, or as strong a line is there;
-    /// noise has `inflation` times the variance that was stated.
-    pub fn may_be_lamps(&self, frequency_hz: f64, inflation: f64) -> bool {
-        let takes = self.by_take();
-        let near = |hz: f64, share: f64| {
-            strongest(&takes, (hz * (1.0 - share), hz * (1.0 + share)), self.frame_period_s)
-        };
-        let chi2 = |line: Option<Line>| line.map_or(0.0, |line| line.chi2);
-        let of_mains = TWICE_MAINS_HZ.map(|hz| chi2(near(hz, NEAR_MAINS))).into_iter().fold(0.0, f64::max);
-        let is_near = |hz: &f64| (frequency_hz / hz - 1.0).abs() < NEAR_MAINS;
-        let clearly = CLEARLY_MORE * inflation.max(1.0);
-        TWICE_MAINS_HZ.iter().any(is_near) || chi2(near(frequency_hz, MAINS_OFF)) < of_mains + clearly
-    }
-
-    /// Whether all recordings see a lamp's flicker at rest: it is a drift to them, and a drift may be a flicker.
-    pub fn flicker_rests(&self) -> bool {
-        let gaps: Vec<_> = self.by_take().iter().map(|take| gaps(take)).collect();
-        let rests = |mains: &f64| gaps.iter().all(|gaps| seen_cycles(gaps, *mains) < MAINS_DRIFT_CYCLES);
-        !gaps.is_empty() && TWICE_MAINS_HZ.iter().any(rests)
     }
 
     /// Where each recording has a line of the ambient light that is at `frequency_hz` in all, Hz: there or, where it clearly has more, near it.
@@ -190,15 +157,9 @@ impl Series {
 ///
 /// Where frames are a `period` apart: not those that go through whole turns from each frame to the next, or nearly.
 pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> Option<Line> {
-    let Scan { low, step, powers } = Scan::of(groups, ends, ANY)?;
-    let gaps: Vec<Vec<(f64, f64)>> = groups.iter().map(|group| gaps(group)).collect();
-    let is_drift = |number: usize| {
-        let frequency = low + number as f64 * step;
-        let cycles = if is_mains(frequency) { MAINS_DRIFT_CYCLES } else { DRIFT_CYCLES };
-        period > 0.0 && gaps.iter().all(|gaps| seen_cycles(gaps, frequency) < cycles)
-    };
-    let power = |number: usize| if is_drift(number) { 0.0 } else { powers[number] };
-    let lines: Vec<f64> = (0..powers.len()).map(power).collect();
+    let scan = Scan::of(groups, ends, ANY)?;
+    let lines = moving(groups, &scan, period);
+    let Scan { low, step, .. } = scan;
     let line = |number: usize| Line {
         frequency: low + number as f64 * step,
         chi2: lines[number],
@@ -220,30 +181,55 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> O
     Some(images.max_by(|a, b| a.chi2.total_cmp(&b.chi2)).unwrap_or(best))
 }
 
-/// The strongest line of a series, beside a constant (Zechmeister and Kürster 2009: nothing tells how far away the target is but the readings), and that of
-/// the longest period among those that are as strong, if it is another one.
-fn with_images(group: Vec<(f64, Sum)>, ends: (f64, f64)) -> Vec<Line> {
-    let groups = [group];
-    let Some(Scan { low, step, powers }) = Scan::of(&groups, ends, OF_ENCODER) else { return Vec::new() };
-    let [group] = &groups;
+/// What lines explain that are no drift to frames that are a `period` apart: chi squared, of each frequency of a `scan`.
+fn moving(groups: &[Vec<(f64, Sum)>], Scan { low, step, powers }: &Scan, period: f64) -> Vec<f64> {
+    let gaps: Vec<Vec<(f64, f64)>> = groups.iter().map(|group| gaps(group)).collect();
+    let is_drift = |number: usize| {
+        let frequency = low + number as f64 * step;
+        let cycles = if is_mains(frequency) { MAINS_DRIFT_CYCLES } else { DRIFT_CYCLES };
+        period > 0.0 && gaps.iter().all(|gaps| seen_cycles(gaps, frequency) < cycles)
+    };
+    let power = |(number, &power): (usize, &f64)| if is_drift(number) { 0.0 } else { power };
+    powers.iter().enumerate().map(power).collect()
+}
+
+/// What the strongest line between the `ends` explains, chi squared, wherever it is between the steps of a scan: what lines that frames see alike explain may
+/// be compared.
+pub fn most_between(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> f64 {
+    let Some(scan) = Scan::of(groups, ends, ANY) else { return 0.0 };
+    let lines = moving(groups, &scan, period);
+    let finest = |number| finer(groups, &scan, ANY, number).chi2;
+    peaks(&lines).into_iter().map(finest).fold(0.0, f64::max)
+}
+
+/// The numbers of the peaks among `powers` that have nearly the greatest one.
+fn peaks(powers: &[f64]) -> Vec<usize> {
     let most = powers.iter().copied().fold(0.0, f64::max);
     let is_peak = |&n: &usize| {
         let beside = [n.checked_sub(1), Some(n + 1)].into_iter().flatten().filter_map(|n| powers.get(n));
         powers[n] > 0.0 && powers[n] >= NEARLY * most && beside.copied().all(|beside| beside <= powers[n])
     };
-    // A line between two steps has a twentieth less there, and so has its image, but at another place between its own.
-    let finer = |n: usize| {
-        let first = low + (n as f64 - 1.0) * step;
-        let mut fine = [0.0; 2 * FINER + 1];
-        add_powers(group, first, step / FINER as f64, OF_ENCODER, &mut fine);
-        let best = greatest(&fine);
-        Line {
-            frequency: first + best as f64 * step / FINER as f64,
-            chi2: fine[best],
-            looked: powers.len() as f64,
-        }
-    };
-    let lines: Vec<Line> = (0..powers.len()).filter(is_peak).map(finer).collect();
+    (0..powers.len()).filter(is_peak).collect()
+}
+
+/// The line at the peak of a scan that has this `number`: one between two steps has a twentieth less there, and so has its image, but at another place
+/// between its own.
+fn finer(groups: &[Vec<(f64, Sum)>], scan: &Scan, sought: Sought, number: usize) -> Line {
+    let step = scan.step / FINER as f64;
+    let first = scan.low + (number as f64 - 1.0) * scan.step;
+    let mut fine = [0.0; 2 * FINER + 1];
+    groups.iter().for_each(|group| add_powers(group, first, step, sought, &mut fine));
+    let best = greatest(&fine);
+    Line { frequency: first + best as f64 * step, chi2: fine[best], looked: scan.powers.len() as f64 }
+}
+
+/// The strongest line of a series, beside a constant (Zechmeister and Kürster 2009: nothing tells how far away the target is but the readings), and that of
+/// the longest period among those that are as strong, if it is another one.
+fn with_images(group: Vec<(f64, Sum)>, ends: (f64, f64)) -> Vec<Line> {
+    let groups = [group];
+    let Some(scan) = Scan::of(&groups, ends, OF_ENCODER) else { return Vec::new() };
+    let finest = |number| finer(&groups, &scan, OF_ENCODER, number);
+    let lines: Vec<Line> = peaks(&scan.powers).into_iter().map(finest).collect();
     let Some(&strongest) = lines.iter().max_by(|a, b| a.chi2.total_cmp(&b.chi2)) else { return lines };
     // Of many images one is stronger by chance.
     let least = strongest.chi2 - AS_STRONG - 2.0 * (lines.len() as f64).ln();
@@ -278,7 +264,7 @@ fn own(group: &[(f64, Sum)], frequency: f64, step: f64) -> f64 {
 }
 
 /// Chi squared by which noise as it was stated hardly ever makes a line stronger nearby.
-const CLEARLY_MORE: f64 = 25.0;
+pub const CLEARLY_MORE: f64 = 25.0;
 
 /// Amplitudes, with their standard deviations, that are less likely than this to be one and the same are not.
 const DISAGREEING: f64 = 1e-3;
@@ -304,6 +290,7 @@ pub fn agree(sizes: &[(f64, f64)]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::lamps::FLICKER_HZ;
     use crate::physics::Draws;
     use std::f64::consts::TAU;
 

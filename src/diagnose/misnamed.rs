@@ -1,7 +1,10 @@
 //! Names that look right and are not: a line of several sources or of no lamp, a wave over the codes that is none.
 
+use super::columns::Tangents;
 use super::data::Data;
-use super::lines::{FLICKER, FLICKER_HZ};
+use super::gram::{Gram, Whitened};
+use super::lamps::{FLICKER, FLICKER_HZ};
+use super::lines::Series;
 use super::location::Location;
 use super::mismatch::Place;
 use super::noise::Noise;
@@ -20,7 +23,7 @@ pub fn misnamed(
 ) -> Option<(&'static str, Place)> {
     // Where nothing of the camera is described, overtones may be anything else that is left.
     let waves = || if data.assumed.camera { None } else { no_wave(data, found, baseline, noise) };
-    no_lamp(found, inflation).or_else(waves)
+    no_lamp(data, found, noise, inflation).or_else(waves)
 }
 
 /// Where something goes with the code that was taken for a wave, but has overtones, or is a step.
@@ -38,15 +41,20 @@ fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Opt
     Some((OF_CODES, Place { coordinate: "code", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }))
 }
 
+/// What swings by more than this share of the ambient light, for which it is taken, is something else.
+const ALL_LIGHT: f64 = 1.0;
+
 /// Where a line is that was taken for a lamp's flicker, but has several sources, or is none that lamps on the mains have.
-fn no_lamp(found: &Found, inflation: f64) -> Option<(&'static str, Place)> {
+fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<(&'static str, Place)> {
     let named = found.named.iter().find(|named| named.name == FLICKER)?;
     let shown = shown(&found.fit, inflation);
     let clear = |shown: &Shown| shown.size.0 / shown.size.1;
     let clearest = shown.iter().max_by(|a, b| clear(a).total_cmp(&clear(b)))?;
-    let series = &found.baseline.series;
+    // What else was named has lines of its own.
+    let series = without(data, found, noise, FLICKER);
     let what = match is_one(&shown) {
         false => "differs from recording to recording",
+        true if clearest.size.0 > ALL_LIGHT => "swings by more than all ambient light",
         true if !series.may_be_lamps(clearest.hz, inflation) => "is not twice the mains' frequency",
         true => return None,
     };
@@ -54,4 +62,12 @@ fn no_lamp(found: &Found, inflation: f64) -> Option<(&'static str, Place)> {
     let looked = series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);
     let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, clearest.take);
     Some((FLICKER, Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false }))
+}
+
+/// What frames and sets say where the effect of this `name` is taken out of what was `found`, and all else is as it was fitted.
+fn without(data: &Data, found: &Found, noise: Noise, name: &str) -> Series {
+    let others: Vec<_> = found.fit.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
+    let (tangents, _) = Tangents::new(data, &found.fit.pixels, &others, &[]);
+    let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
+    Gram::visited(data, &tangents, noise, &|_| true, &visit, &Series::and).1
 }

@@ -36,7 +36,7 @@ impl Noise {
         self.floor + signal_dn * (self.slope + signal_dn * self.square)
     }
 
-    /// Sum of the logarithms of the variance at the model's signals, whose weights have these `roots`, over that at the measured `signals`. A model whose
+    /// Sum of the logarithms of the variance at a model's signals, whose weights have these `roots`, over this one's at the measured `signals`. A model whose
     /// signals are too great has too great a variance, and chi squared alone would prefer it.
     pub fn ln_variance(&self, signals: &[f32], roots: &[f64]) -> f64 {
         let ratio = |(&measured, &root): (&f32, &f64)| match root > 0.0 {
@@ -67,12 +67,12 @@ fn frames(data: &Data) -> Vec<(usize, usize)> {
     data.takes.iter().enumerate().flat_map(of).collect()
 }
 
-/// Variance over signal from half the squared differences of neighbours' residuals in a row: what both share (an effect, as a rule)
-/// drops out. Medians, so that dead pixels and edges say little.
+/// Variance over signal from half the squared differences of neighbours' residuals in a row, of which the pixels' own numbers took their part: what both
+/// share (an effect, as a rule) drops out. Medians, so that dead pixels and edges say little.
 pub fn measured(data: &Data, fit: &Fit) -> Noise {
     let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
     let (pixels, width) = (data.pixels(), data.geometry().width);
-    let frames = frames(data);
+    let (frames, free) = (frames(data), data.free_shares());
     let mut samples: Vec<(f64, f64)> = Vec::new();
     for &(take, index) in frames.iter().step_by(frames.len().div_ceil(FRAMES).max(1)) {
         let base = tangents.base(take, index);
@@ -80,8 +80,9 @@ pub fn measured(data: &Data, fit: &Fit) -> Noise {
         let residual = |pixel: usize| f64::from(measured[pixel]) - base[pixel];
         for pixel in (0..pixels.saturating_sub(1)).filter(|pixel| (pixel + 1) % width != 0) {
             let difference = residual(pixel) - residual(pixel + 1);
-            if difference.is_finite() {
-                samples.push((0.5 * (base[pixel] + base[pixel + 1]), 0.5 * difference * difference));
+            let free = free[pixel] + free[pixel + 1];
+            if difference.is_finite() && free > 0.0 {
+                samples.push((0.5 * (base[pixel] + base[pixel + 1]), difference * difference / free));
             }
         }
     }

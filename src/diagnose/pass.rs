@@ -183,9 +183,11 @@ impl Pass {
         before: &Fit,
         fits: impl Iterator<Item = (usize, Fit)>,
         candidates: &[Candidate],
-        is_far: bool,
+        is_loose: bool,
     ) -> Option<(Model, Fit, Vec<String>)> {
-        let explained = |fit: &Fit| before.counted() - fit.counted() - fit.unreached;
+        // Of residuals as they count, and of all that they have beyond.
+        let explained =
+            |fit: &Fit| [before.counted() - fit.counted() - fit.unreached, before.chi2 - fit.left()];
         let judged = |(block, fit): (usize, Fit)| {
             (self.fitted_ln_bayes(block, self.name(block, candidates), before.chi2, &fit), block, fit)
         };
@@ -193,14 +195,14 @@ impl Pass {
         // A model that is no number anywhere fits nothing.
         judged.retain(|fitted| fitted.0.is_finite());
         judged.sort_by(|a, b| b.0.total_cmp(&a.0));
-        // Far from the baseline no form is exact: of those that explain about as much as the best one, the simplest.
+        // Far from the baseline no form is exact: of those that explain about as much as the best one, the simplest. What `is_loose` is that, or the like.
         let most = explained(&judged.first()?.2);
         let is_believed = |&place: &usize| {
             let (_, block, fit) = &judged[place];
             let left = DISBELIEF * tolerance(self.name(*block, candidates));
-            explained(fit) > (1.0 - left) * most
+            explained(fit).iter().zip(most).all(|(explained, most)| *explained > (1.0 - left) * most)
         };
-        let believed = (0..judged.len()).filter(|place| is_far && is_believed(place));
+        let believed = (0..judged.len()).filter(|place| is_loose && (*place == 0 || is_believed(place)));
         let simplest = believed.min_by_key(|&place| judged[place].2.columns.len());
         let (ln_bayes, block, fit) = judged.remove(simplest.unwrap_or(0));
         // What its form may leave does not tell it from others either, nor what theirs may.

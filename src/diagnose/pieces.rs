@@ -1,7 +1,8 @@
 //! What may be added to the baseline: effects with values, which of them are fitted, and to which recordings they belong.
 
 use super::data::Data;
-use super::lines::{FLICKER, FLICKER_HZ, Series};
+use super::lamps::{FLICKER, FLICKER_HZ};
+use super::lines::Series;
 use crate::physics::{Active, Chance, EFFECTS, Effect, Parameter, effects};
 
 /// An effect at certain values, in some of the recordings.
@@ -23,6 +24,12 @@ impl Piece {
     /// How many of its shapes are fitted.
     pub fn shapes(&self) -> usize {
         self.free.iter().filter(|&&number| self.effect.parameters[number].is_shape()).count()
+    }
+
+    /// The same with this share of every strength.
+    #[must_use]
+    pub fn with_share(&self, share: f64) -> Self {
+        Self { values: self.effect.with_share(&self.values, share), ..self.clone() }
     }
 
     /// Whether `other` is the same, whatever is fitted of it.

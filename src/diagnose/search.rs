@@ -7,7 +7,7 @@ use super::data::Data;
 use super::evidence::Model;
 use super::exchange::exchange;
 use super::fit::{Fit, fit, fit_below};
-use super::lines::FLICKER;
+use super::lamps::FLICKER;
 use super::noise::Noise;
 use super::pass::{DISBELIEF, Pass, RIVAL_NATS, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
@@ -246,8 +246,11 @@ impl<'a> Search<'a> {
     /// Goes on from the fit `completed` and what was `named` before it was, at the fit `before`.
     fn complete(&mut self, Completed { name, fit }: Completed, before: &Fit, named: Vec<Named>) {
         self.named = named;
+        // Numbers that it needed besides are its own, too.
+        let more = fit.columns.len().saturating_sub(before.columns.len());
         for named in self.named.iter_mut().filter(|named| named.name == name) {
-            named.ln_bayes += 0.5 * (before.chi2 - fit.chi2);
+            named.ln_bayes += 0.5 * (before.chi2 - fit.chi2) - more as f64;
+            named.score.1 += more;
             named.score.0 = (named.score.0 + before.counted() - fit.counted()).max(0.0);
         }
         self.current = fit;
@@ -288,7 +291,8 @@ impl<'a> Search<'a> {
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
                 let fits = entrants.into_iter().map(|entrant| (entrant.block, fitted(entrant.pieces)));
-                pass.fittest(current, fits, candidates, is_far)
+                // Nor is a form exact beside what nobody described.
+                pass.fittest(current, fits, candidates, is_far || data.assumed.camera)
             };
             let (mut single, mut fitted, mut near) = contest(&others)?;
             if !others.is_empty() && single.ln_bayes < THRESHOLD {

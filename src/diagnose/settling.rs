@@ -17,16 +17,16 @@ const SHARES: [f64; 3] = [1.0, 0.25, 0.0625];
 /// A step that takes away a smaller share of what is left is the last one.
 const SLOW: f64 = 0.01;
 
-/// What the model stands on: recordings, effects as they are, noise, and the sets (number over all recordings) that count.
+/// What pixels are judged by: recordings, effects as they are, noise, and the sets (number over all recordings) that count.
 #[derive(Clone, Copy)]
-struct Bench<'a> {
+struct Judges<'a> {
     data: &'a Data,
     pieces: &'a [Piece],
     noise: Noise,
     counts: &'a (dyn Fn(usize) -> bool + Sync),
 }
 
-impl Bench<'_> {
+impl Judges<'_> {
     /// Twice Huber's loss of each pixel, over the sets that count; no number where the model is none.
     fn losses(&self, pixels: &Arc<Pixels>) -> Vec<f64> {
         let (data, count) = (self.data, self.data.pixels());
@@ -48,9 +48,11 @@ impl Bench<'_> {
         summed(data, self.counts, &vec![0.0; count], with, join)
     }
 
-    /// Of each pixel the numbers `there`, where they fit no worse than those it has, whose loss is `losses`; that of what is taken is kept there. Whether
-    /// all were taken.
-    fn better(&self, pixels: &mut Arc<Pixels>, losses: &mut [f64], there: &Arc<Pixels>) -> bool {
+    /// Gives each pixel its numbers `there`, if they fit no worse than those it has, whose loss is `losses`: that of what is taken is kept there. Whether all
+    /// were taken.
+    ///
+    /// Where pixels see each other's light, what each of them does for itself may be worse together: nothing is taken then.
+    fn take_better(&self, pixels: &mut Arc<Pixels>, losses: &mut Vec<f64>, there: &Arc<Pixels>) -> bool {
         let of_there = self.losses(there);
         let better = |(pixel, (loss, there)): (usize, (&f64, &f64))| {
             (*there <= *loss || !loss.is_finite() && there.is_finite()).then_some(pixel)
@@ -58,46 +60,60 @@ impl Bench<'_> {
         let better: Vec<usize> = losses.iter().zip(&of_there).enumerate().filter_map(better).collect();
         if better.len() == losses.len() {
             *pixels = Arc::clone(there);
-            losses.copy_from_slice(&of_there);
+            *losses = of_there;
             return true;
         }
-        let mut own = own_values_mut(Arc::make_mut(pixels));
+        if better.is_empty() {
+            return false;
+        }
+        let mut mixed = Arc::clone(pixels);
+        let mut own = own_values_mut(Arc::make_mut(&mut mixed));
         for pixel in better {
-            losses[pixel] = of_there[pixel];
             own.iter_mut().zip(own_values(there)).for_each(|(own, there)| own[pixel] = there[pixel]);
+        }
+        let of_mixed = self.losses(&mixed);
+        if total(&of_mixed) <= total(losses) {
+            *pixels = mixed;
+            *losses = of_mixed;
         }
         false
     }
 }
 
+/// How many losses are no numbers, and the sum of those that are.
+fn total(losses: &[f64]) -> (usize, f64) {
+    let numbers = losses.iter().filter(|loss| loss.is_finite());
+    (losses.len() - numbers.clone().count(), numbers.sum())
+}
+
 /// The pixels with their own numbers as they fit best, but for what their tangents leave, beside `pieces` as they are: each begins where it fits best of
-/// `pixels` and `others`, and stays there where no share of its step leads it downhill.
+/// `pixels` and where it was `before`, and stays there where no share of its step leads it downhill.
 pub fn settled(
     data: &Data,
     pixels: &Arc<Pixels>,
-    others: Option<&Arc<Pixels>>,
+    before: Option<&Arc<Pixels>>,
     rounds: usize,
     pieces: &[Piece],
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> Arc<Pixels> {
     let known: Vec<Piece> = pieces.iter().map(|piece| Piece { free: Vec::new(), ..piece.clone() }).collect();
-    let bench = Bench { data, pieces: &known, noise, counts };
+    let judges = Judges { data, pieces: &known, noise, counts };
     let mut here = Arc::clone(pixels);
-    let mut losses = bench.losses(&here);
-    if let Some(others) = others {
-        bench.better(&mut here, &mut losses, others);
+    let mut losses = judges.losses(&here);
+    if let Some(before) = before {
+        judges.take_better(&mut here, &mut losses, before);
     }
     for _ in 0..rounds {
         let (tangents, _) = Tangents::new(data, &here, &known, &[]);
         let step = Gram::of(data, &tangents, noise, counts).project(None).own(&DVector::zeros(0));
-        let (start, before) = (Arc::clone(&here), losses.iter().sum::<f64>());
+        let (start, (no_numbers, sum)) = (Arc::clone(&here), total(&losses));
         for share in SHARES {
-            if bench.better(&mut here, &mut losses, &Arc::new(moved(&start, &step, share))) {
+            if judges.take_better(&mut here, &mut losses, &Arc::new(moved(&start, &step, share))) {
                 break;
             }
         }
-        if losses.iter().sum::<f64>() > (1.0 - SLOW) * before {
+        if total(&losses) > (no_numbers, (1.0 - SLOW) * sum) {
             break;
         }
     }
@@ -128,7 +144,7 @@ mod tests {
         let recordings = taken(size, 2, &[injection("encoder_offset:offset_m=0").unwrap()], &["four-rail"]);
         let data = Data::of(&recordings.unwrap(), Vec::new()).unwrap();
         let noise = stated_noise(&data);
-        let bench = Bench { data: &data, pieces: &[], noise, counts: &|_| true };
+        let judges = Judges { data: &data, pieces: &[], noise, counts: &|_| true };
         let good = unfitted(&data, noise).pixels;
         let off = |first: usize, by_rad: f64| {
             let mut pixels = Pixels::clone(&good);
@@ -138,21 +154,53 @@ mod tests {
         let is_good = |pixels: &Pixels| own_values(pixels) == own_values(&good);
         for by_rad in [0.5, f64::NAN] {
             let mut here = off(0, 0.5);
-            let mut losses = bench.losses(&here);
-            assert!(!bench.better(&mut here, &mut losses, &off(1, by_rad)), "{by_rad}: all were taken");
-            assert!(is_good(&here) && losses == bench.losses(&good), "{by_rad}");
+            let mut losses = judges.losses(&here);
+            assert!(!judges.take_better(&mut here, &mut losses, &off(1, by_rad)), "{by_rad}: all were taken");
+            assert!(is_good(&here) && losses == judges.losses(&good), "{by_rad}");
             // What is no number is left for what is one.
             let mut here = off(0, by_rad);
-            let mut losses = bench.losses(&here);
-            assert!(bench.better(&mut here, &mut losses, &good) && is_good(&here), "{by_rad}");
+            let mut losses = judges.losses(&here);
+            assert!(judges.take_better(&mut here, &mut losses, &good) && is_good(&here), "{by_rad}");
         }
         let [here, others] = [off(0, 0.5), off(1, 0.5)];
         let began = settled(&data, &here, Some(&others), 0, &[], noise, &|_| true);
         assert!(is_good(&began));
         // And from the wrong place downhill.
         let [before, after] = [here.clone(), settled(&data, &here, None, 8, &[], noise, &|_| true)]
-            .map(|pixels| bench.losses(&pixels));
+            .map(|pixels| judges.losses(&pixels));
         assert!(after.iter().zip(&before).all(|(after, before)| after <= before));
         assert!(after.iter().sum::<f64>() < 0.5 * before.iter().sum::<f64>());
+    }
+
+    /// Light that scatters in the lens is everyone's: of pixels that are each better off for themselves, but only as long as all others go with them, some do
+    /// not go. What is kept of the losses is that of where they are.
+    #[test]
+    fn pixels_that_see_each_others_light_are_judged_together() {
+        let size = Geometry { width: 16, height: 12 };
+        let scatter = injection("lens_scatter:share=0.3").unwrap();
+        let recordings = taken(size, 2, std::slice::from_ref(&scatter), &["four-rail"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let noise = stated_noise(&data);
+        let values = vec![0.3; scatter.effect.parameters.len()];
+        let piece = Piece { effect: scatter.effect, values, free: vec![0], takes: vec![0], finite: false };
+        let pieces = [piece];
+        let judges = Judges { data: &data, pieces: &pieces, noise, counts: &|_| true };
+        let good = settled(&data, &unfitted(&data, noise).pixels, None, 8, &pieces, noise, &|_| true);
+        let scaled = |of: &dyn Fn(usize) -> f64| {
+            let mut pixels = Pixels::clone(&good);
+            pixels.amplitude_1m_dn.iter_mut().enumerate().for_each(|(pixel, value)| *value *= of(pixel));
+            Arc::new(pixels)
+        };
+        // From all too bright to some much too dark, and the others as they should be.
+        let mut here = scaled(&|_| 1.1);
+        let mut losses = judges.losses(&here);
+        let before = total(&losses);
+        assert!(!judges.take_better(
+            &mut here,
+            &mut losses,
+            &scaled(&|pixel| if pixel % 3 == 0 { 0.3 } else { 1.0 })
+        ));
+        assert_eq!(losses, judges.losses(&here));
+        assert!(total(&losses) <= before);
     }
 }

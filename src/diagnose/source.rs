@@ -2,7 +2,8 @@
 
 use super::columns::Column;
 use super::fit::Fit;
-use super::lines::{FLICKER, MAINS_OFF, agree};
+use super::lamps::{FLICKER, MAINS_OFF};
+use super::lines::agree;
 use super::pieces::Piece;
 use nalgebra::DMatrix;
 

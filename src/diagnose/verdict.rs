@@ -1,20 +1,18 @@
 //! The answer as other programs read it: `vuris-verdict/1`.
 
-use super::alias::alias_odds;
 use super::alone::Alone;
 use super::conclusion::Verdict;
 use super::data::Data;
+use super::effect_row::{effect_row, is_bounded};
 use super::evidence::tail;
 use super::fit::{fit, unfitted};
 use super::held_out::{HeldOut, held_out};
-use super::images::{Image, also_seen, images, spread};
 use super::judge::{Judgement, judge};
-use super::lines::FLICKER;
 use super::mismatch::Place;
 use super::next::next;
 use super::noise::Noise;
 use super::noise::measured;
-use super::pieces::{OF_NEIGHBOURS, Piece};
+use super::pieces::OF_NEIGHBOURS;
 use super::search::Named;
 use super::settle::{outlying, with_mask};
 use super::stated_noise;
@@ -82,6 +80,7 @@ pub struct ParameterRow {
     pub value: f64,
     pub sigma: f64,
     pub unit: &'static str,
+    pub at_bound: bool,
 }
 
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -186,13 +185,20 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
         Some(fewer) => (fewer, fit(fewer, Some(&baseline), Vec::new(), noise, &|_| true)),
         None => (data, baseline),
     };
-    let judgement = judge(data, baseline, noise);
+    let mut judgement = judge(data, baseline, noise);
     let held_out = held_out(data, judgement.without(), judgement.with());
+    let is_more = held_out.after.chi2_per_dof > EXPLAINED || is_bounded(&judgement.fit);
+    if judgement.verdict == Verdict::Explained && is_more {
+        judgement.verdict = Verdict::PartlyExplained;
+    }
     let mut answer = answer(data, &judgement, &held_out);
     answer.provenance["sets_left_out"] = json!(left_out);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     Diagnosis { judgement, held_out, answer, geometry: data.geometry() }
 }
+
+/// Sets that were not seen are explained where they have no more chi squared a sample: noise alone has 1.
+const EXPLAINED: f64 = 2.0;
 
 /// The noise that the camera's description gives, or, without one, what the recordings show.
 fn noise_of(data: &Data) -> Noise {
@@ -215,6 +221,8 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     let nats = judgement.places.iter().map(|place| place.ln_bayes).fold(best_alone, f64::max);
     let nats = named.iter().map(|named| named.ln_bayes).fold(nats, f64::max);
     let is_clean = *verdict == Verdict::Clean;
+    // What tangents at the baseline did not show may show where other effects are.
+    let is_named = |name: &str| named.iter().any(|named| named.name == name);
     let seen = |place: &Place| located(data, judgement, place);
     let smallest = found.detectable.iter().filter_map(|row| {
         let parameter = data.effect(row.name)?.parameters.get(row.parameter)?;
@@ -256,7 +264,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
                 expected_rho: rounded(next.rho),
             })
             .collect(),
-        invisible: found.invisible.iter().map(|&name| invisible(name)).collect(),
+        invisible: found.invisible.iter().filter(|&&name| !is_named(name)).map(|&name| invisible(name)).collect(),
         smallest_detectable: smallest.collect(),
         provenance: json!({
             "program": concat!("vuris ", env!("CARGO_PKG_VERSION")),
@@ -301,76 +309,6 @@ fn located(data: &Data, judgement: &Judgement, place: &Place) -> LocatedRow {
 
 fn rounded(value: f64) -> f64 {
     format!("{value:.4e}").parse().unwrap_or(value)
-}
-
-fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
-    let images = if named.name == FLICKER { images(data, &judgement.fit) } else { Vec::new() };
-    let sentence = data.effect(named.name).map_or("", |effect| effect.sentence);
-    let names: Vec<&str> = judgement.named.iter().map(|named| named.name).collect();
-    let mut also_possible: Vec<String> = Vec::new();
-    for rival in &named.rivals {
-        if !names.contains(&rival.as_str()) {
-            also_possible.push(rival.clone());
-        }
-    }
-    let (chi2, degrees_of_freedom) = named.score;
-    let rho = (chi2 - degrees_of_freedom as f64).max(0.0).sqrt();
-    // Rivals are within a few nats; everything else that is known has what the threshold leaves.
-    let rivals = named.rivals.len() as f64 * (-1.5f64).exp();
-    let alias = alias_odds(rho);
-    let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp() + alias);
-    EffectRow {
-        name: named.name,
-        sentence: format!("{sentence}{}", also_seen(&images)),
-        probability,
-        alias_risk: alias * probability,
-        also_possible,
-        parameters: parameters(data, judgement, named.name, &images),
-        evidence: EvidenceRow {
-            delta_chi2: chi2,
-            degrees_of_freedom,
-            ln_bayes_factor: named.ln_bayes,
-            detectability_rho: rho,
-        },
-    }
-}
-
-/// The fitted values of the effect called `name`, piece by piece; of a line, not better known than which of its `images` it is.
-fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) -> Vec<ParameterRow> {
-    let fit = &judgement.fit;
-    let of = |piece: &&Piece| piece.effect.name == name;
-    let several = fit.pieces.iter().filter(of).count() > 1;
-    let mut rows = Vec::new();
-    for (number, piece) in fit.pieces.iter().enumerate().filter(|(_, piece)| of(piece)) {
-        let takes: Vec<&str> = piece.takes.iter().map(|&take| data.takes[take].name.as_str()).collect();
-        let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
-        for (parameter, known) in piece.effect.parameters.iter().enumerate() {
-            let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
-            let sigma = column.map_or(0.0, |column| fit.sigma(column));
-            let sigma = sigma.hypot(spread(images, fit, number, parameter));
-            if column.is_none() && !known.is_shape() {
-                continue;
-            }
-            rows.push(ParameterRow {
-                name: format!("{}{suffix}", known.name),
-                value: piece.values[parameter],
-                sigma: if sigma.is_finite() { sigma } else { 0.0 },
-                unit: known.unit,
-            });
-        }
-    }
-    if rows.is_empty() {
-        // A random effect is not fitted with the others: its strength is from what they leave.
-        let random = judgement.random.iter().copied().find(|(random, _)| *random == name);
-        let parameter = data.effect(name).and_then(|effect| effect.parameters.first());
-        rows.extend(random.zip(parameter).map(|((_, strength), parameter)| ParameterRow {
-            name: parameter.name.to_owned(),
-            value: strength.value,
-            sigma: strength.sigma,
-            unit: parameter.unit,
-        }));
-    }
-    rows
 }
 
 /// Every other candidate, and what speaks against it.

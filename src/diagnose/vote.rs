@@ -1,7 +1,7 @@
 //! Whether a coordinate is a simpler answer than the effects that were named.
 
 use super::evidence::tail;
-use super::lines::FLICKER;
+use super::lamps::FLICKER;
 use super::location::{LOCATED_NATS, Located, Location};
 use super::pass::RIVAL_NATS;
 use super::pieces::{OF_OTHER_PIXELS, Piece};
@@ -38,8 +38,9 @@ const COLUMNS: [(&str, (&str, &str)); 2] =
     [("phase_step_errors", ("frame", "phase")), ("frame_gain", ("frame", "gain"))];
 
 impl Names {
-    /// Of the effects `named`, of those that were `found`, which explain so much of chi squared; nothing where none is named.
-    pub fn of(found: &Found, named: &[Named], explained: f64) -> Option<Self> {
+    /// Of the effects `named`, of those that were `found`, which explain so much of chi squared, and so `many` times what their forms may leave counts as theirs;
+    /// nothing where none is named.
+    pub fn of(found: &Found, named: &[Named], explained: f64, many: f64) -> Option<Self> {
         let first = named.first()?;
         let mut evidences: Vec<f64> = named.iter().map(|named| named.ln_bayes).collect();
         // Of two that were found together it is that of both.
@@ -57,7 +58,7 @@ impl Names {
             count: named.len(),
             ln_bayes: evidences.iter().sum::<f64>().max(kept).max(promised),
             numbers,
-            at_most: (explained.max(promised_chi2) + tolerated(named), numbers + shapes),
+            at_most: (explained.max(promised_chi2) + many * tolerated(named), numbers + shapes),
             flickers: named.iter().any(|named| named.name == FLICKER),
             is_of_other_pixels: OF_OTHER_PIXELS.contains(&first.name),
             own: alone.and_then(|alone| {

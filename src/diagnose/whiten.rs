@@ -18,8 +18,8 @@ pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise
                  roots: &'a mut [f64], residuals: &'a mut [f64]) {
             for (((&measured, &base), root), residual) in signal.iter().zip(base).zip(roots).zip(residuals) {
                 let counts = !measured.is_nan();
-                *root = if counts { noise.weight(base).sqrt() } else { 0.0 };
-                // What is no number stays none.
+                // What is no number stays none, and so does what is infinite, whose noise is.
+                *root = if counts { (noise.weight(base) + 0.0 * base).sqrt() } else { 0.0 };
                 let beyond = *root * (f64::from(measured) - base);
                 *residual = if *root == 0.0 { 0.0 } else { beyond.clamp(-WINSOR, WINSOR) };
             }

@@ -233,6 +233,18 @@ pub struct Active {
     pub values: Vec<f64>,
 }
 
+impl Effect {
+    /// The `values` of its parameters with this share of every strength.
+    #[must_use]
+    pub fn with_share(&self, values: &[f64], share: f64) -> Vec<f64> {
+        let value = |(parameter, &value): (&Parameter, &f64)| match parameter.is_shape() {
+            true => value,
+            false => parameter.off + share * (value - parameter.off),
+        };
+        self.parameters.iter().zip(values).map(value).collect()
+    }
+}
+
 impl Active {
     /// Whether every strength is off, so that it does nothing.
     pub fn is_off(&self) -> bool {

@@ -68,7 +68,11 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
                         vec![
                             row.name.clone(),
                             format!("{:.6}", row.value),
-                            format!("{:.2e}", row.sigma),
+                            if row.at_bound {
+                                "at its bound".to_owned()
+                            } else {
+                                format!("{:.2e}", row.sigma)
+                            },
                             row.unit.to_owned(),
                         ]
                     })

@@ -38,7 +38,8 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         let _ = writeln!(text, "{}:", effect.name);
         for row in effect.parameters.iter().take(3 * MOST) {
             let unit = if row.unit == "1" { String::new() } else { format!(" {}", row.unit) };
-            let _ = writeln!(text, "  {} = {:.6} \u{b1} {:.2e}{unit}", row.name, row.value, row.sigma);
+            let bound = if row.at_bound { ", at its bound" } else { "" };
+            let _ = writeln!(text, "  {} = {:.6} \u{b1} {:.2e}{unit}{bound}", row.name, row.value, row.sigma);
         }
         let more = effect.parameters.len().saturating_sub(3 * MOST);
         if more > 0 {
@@ -56,21 +57,7 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         let _ =
             writeln!(text, "Noise beside what the camera states: {shared}. No physics is left out by that.");
     }
-    let held = &answer.held_out;
-    let _ = writeln!(
-        text,
-        "On {} sets that the fit has not seen: chi squared a sample {:.4} -> {:.4} (z {:.1}), raw frames {:.3} -> {:.3} DN RMS,\n  \
-         their means {:.3} -> {:.3} DN RMS{}",
-        held.sets,
-        held.chi2_per_dof_before,
-        held.chi2_per_dof_after,
-        held.z,
-        held.rms_dn_before,
-        held.rms_dn_after,
-        held.frame_mean_rms_dn_before,
-        held.frame_mean_rms_dn_after,
-        distance(held)
-    );
+    text += &of_held_out(&answer.held_out);
     if let Some(coordinate) = answer.remainder.coordinate {
         let share = 100.0 * answer.remainder.share;
         let _ = writeln!(text, "Left: {share:.1} % of the mismatch, most of it over {coordinate}");
@@ -90,6 +77,26 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         let _ = writeln!(text, "These recordings cannot show: {}", names.join(", "));
     }
     text
+}
+
+/// How the fit fares on what it has not seen.
+fn of_held_out(held: &HeldOutRow) -> String {
+    if held.sets == 0 {
+        return "Of these steps no frame is told by the others: nothing can be held out.\n".to_owned();
+    }
+    format!(
+        "On {} sets that the fit has not seen: chi squared a sample {:.4} -> {:.4} (z {:.1}), raw frames {:.3} -> {:.3} DN RMS,\n  \
+         their means {:.3} -> {:.3} DN RMS{}\n",
+        held.sets,
+        held.chi2_per_dof_before,
+        held.chi2_per_dof_after,
+        held.z,
+        held.rms_dn_before,
+        held.rms_dn_after,
+        held.frame_mean_rms_dn_before,
+        held.frame_mean_rms_dn_after,
+        distance(held)
+    )
 }
 
 /// A recording that separates by less does not.

@@ -1,0 +1,109 @@
+//! A named effect as other programs read it.
+
+use super::alias::alias_odds;
+use super::columns::Column;
+use super::data::Data;
+use super::fit::Fit;
+use super::images::{Image, also_seen, images, spread};
+use super::judge::Judgement;
+use super::lamps::FLICKER;
+use super::pieces::Piece;
+use super::search::Named;
+use super::verdict::{EffectRow, EvidenceRow, ParameterRow};
+use crate::physics::Parameter;
+
+/// A value that is nearer to its bound, as a share of all that it may be, is at it: the fit would have gone on.
+const AT_BOUND: f64 = 1e-6;
+
+/// The row of what is `named`.
+pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
+    let images = if named.name == FLICKER { images(data, &judgement.fit) } else { Vec::new() };
+    let sentence = data.effect(named.name).map_or("", |effect| effect.sentence);
+    let names: Vec<&str> = judgement.named.iter().map(|named| named.name).collect();
+    let mut also_possible: Vec<String> = Vec::new();
+    for rival in &named.rivals {
+        if !names.contains(&rival.as_str()) {
+            also_possible.push(rival.clone());
+        }
+    }
+    let (chi2, degrees_of_freedom) = named.score;
+    let rho = (chi2 - degrees_of_freedom as f64).max(0.0).sqrt();
+    // Rivals are within a few nats; everything else that is known has what the threshold leaves.
+    let rivals = named.rivals.len() as f64 * (-1.5f64).exp();
+    let alias = alias_odds(rho);
+    let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp() + alias);
+    EffectRow {
+        name: named.name,
+        sentence: format!("{sentence}{}", also_seen(&images)),
+        probability,
+        alias_risk: alias * probability,
+        also_possible,
+        parameters: parameters(data, judgement, named.name, &images),
+        evidence: EvidenceRow {
+            delta_chi2: chi2,
+            degrees_of_freedom,
+            ln_bayes_factor: named.ln_bayes,
+            detectability_rho: rho,
+        },
+    }
+}
+
+/// The fitted values of the effect called `name`, piece by piece; of a line, not better known than which of its `images` it is.
+fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) -> Vec<ParameterRow> {
+    let fit = &judgement.fit;
+    let of = |piece: &&Piece| piece.effect.name == name;
+    let several = fit.pieces.iter().filter(of).count() > 1;
+    let mut rows = Vec::new();
+    for (number, piece) in fit.pieces.iter().enumerate().filter(|(_, piece)| of(piece)) {
+        let takes: Vec<&str> = piece.takes.iter().map(|&take| data.takes[take].name.as_str()).collect();
+        let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
+        for (parameter, known) in piece.effect.parameters.iter().enumerate() {
+            let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
+            let sigma = column.map_or(0.0, |column| fit.sigma(column));
+            let sigma = sigma.hypot(spread(images, fit, number, parameter));
+            let value = piece.values[parameter];
+            let at_bound = column.is_some() && is_at_bound(known, value, fit.pixels.full_scale_dn);
+            if column.is_none() && !known.is_shape() {
+                continue;
+            }
+            rows.push(ParameterRow {
+                name: format!("{}{suffix}", known.name),
+                value,
+                sigma: if sigma.is_finite() { sigma } else { 0.0 },
+                unit: known.unit,
+                at_bound,
+            });
+        }
+    }
+    if rows.is_empty() {
+        // A random effect is not fitted with the others: its strength is from what they leave.
+        let random = judgement.random.iter().copied().find(|(random, _)| *random == name);
+        let parameter = data.effect(name).and_then(|effect| effect.parameters.first());
+        rows.extend(random.zip(parameter).map(|((_, strength), parameter)| ParameterRow {
+            name: parameter.name.to_owned(),
+            value: strength.value,
+            sigma: strength.sigma,
+            unit: parameter.unit,
+            at_bound: false,
+        }));
+    }
+    rows
+}
+
+/// Whether a `value` is at the bound of its parameter, where signals go up to `full_scale_dn`; what is off is not.
+fn is_at_bound(parameter: &Parameter, value: f64, full_scale_dn: f64) -> bool {
+    let (low, high) = parameter.bounds_within(full_scale_dn);
+    let near = AT_BOUND * (high - low);
+    (value - parameter.off).abs() > near && (value - low < near || high - value < near)
+}
+
+/// Whether the strength of an effect that was fitted is at its bound: what is there is more than it may be, or something else.
+pub fn is_bounded(fit: &Fit) -> bool {
+    let of_column = |column: &Column| {
+        let piece = &fit.pieces[column.piece];
+        let parameter = &piece.effect.parameters[column.parameter];
+        let value = piece.values[column.parameter];
+        !parameter.is_shape() && is_at_bound(parameter, value, fit.pixels.full_scale_dn)
+    };
+    fit.columns.iter().any(of_column)
+}

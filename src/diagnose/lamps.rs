@@ -1,0 +1,70 @@
+//! Whether a line of the ambient light is a lamp's: lamps flicker with twice the mains' frequency.
+
+use super::gaps::{gaps, seen_cycles};
+use super::lines::{CLEARLY_MORE, MAINS_DRIFT_CYCLES, Series, most_between};
+
+/// The effect that is a line in time.
+pub const FLICKER: &str = "ambient_flicker";
+/// Lamps flicker with twice the mains' frequency, and not with all others: Hz.
+pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
+const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
+/// By what share the mains' frequency is off at most.
+pub const MAINS_OFF: f64 = 2e-3;
+/// A generator that is not on the grid is off by more, but hardly by this share.
+const NEAR_MAINS: f64 = 0.05;
+
+/// Whether a frequency, Hz, may be twice the mains'.
+pub fn is_mains(frequency_hz: f64) -> bool {
+    TWICE_MAINS_HZ.iter().any(|mains| (frequency_hz / mains - 1.0).abs() < MAINS_OFF)
+}
+
+impl Series {
+    /// Whether a line of the ambient light that is near `frequency_hz` may be a lamp's, where the series has nothing else: it is near twice the mains' frequency,
+    /// or as strong a line is there; noise has `inflation` times the variance that was stated.
+    pub fn may_be_lamps(&self, frequency_hz: f64, inflation: f64) -> bool {
+        let takes = self.by_take();
+        let near = |hz: f64, share: f64| {
+            most_between(&takes, (hz * (1.0 - share), hz * (1.0 + share)), self.frame_period_s)
+        };
+        let is_near = |hz: &f64| (frequency_hz / hz - 1.0).abs() < NEAR_MAINS;
+        let of_mains = || TWICE_MAINS_HZ.map(|hz| near(hz, NEAR_MAINS)).into_iter().fold(0.0, f64::max);
+        let clearly = CLEARLY_MORE * inflation.max(1.0);
+        TWICE_MAINS_HZ.iter().any(is_near) || near(frequency_hz, MAINS_OFF) < of_mains() + clearly
+    }
+
+    /// Whether all recordings see a lamp's flicker at rest: it is a drift to them, and a drift may be a flicker.
+    pub fn flicker_rests(&self) -> bool {
+        let gaps: Vec<_> = self.by_take().iter().map(|take| gaps(take)).collect();
+        let rests = |mains: &f64| gaps.iter().all(|gaps| seen_cycles(gaps, *mains) < MAINS_DRIFT_CYCLES);
+        !gaps.is_empty() && TWICE_MAINS_HZ.iter().any(rests)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::Draws;
+    use std::f64::consts::TAU;
+
+    /// Frames 25 ms apart, in sets of four that begin eleven of them apart, see a line of 117.6 Hz and one of 82.4 Hz alike, and scans do not, whose steps
+    /// are at other places between them.
+    #[test]
+    fn what_frames_see_alike_is_equally_strong() {
+        for (draw, offset_hz) in (0..12).map(|n| (n, 0.013 * n as f64)) {
+            let hz = 117.6 + offset_hz;
+            let of_take = |(take, sets): (u64, usize)| {
+                let noise = Draws::of(draw, take).normal(4 * sets);
+                let at = |n: usize| 0.025 * (11 * (n / 4) + n % 4) as f64;
+                // As strong as 1340 to 1440 in the noise of one.
+                let line = |n: usize| 2.05 * (TAU * hz * at(n) + 1.0).sin() + noise[n];
+                (0..4 * sets).map(|n| (at(n), (line(n), 1.0))).collect::<Vec<_>>()
+            };
+            let takes = [(0, 68), (1, 102)].map(of_take);
+            let near =
+                |hz: f64, share: f64| most_between(&takes, (hz * (1.0 - share), hz * (1.0 + share)), 0.025);
+            let (image, of_mains) = (near(200.0 - hz, MAINS_OFF), near(120.0, NEAR_MAINS));
+            assert!(image > 1000.0, "{image}");
+            assert!((image - of_mains).abs() < 0.5 * CLEARLY_MORE, "{hz}: {image} {of_mains}");
+        }
+    }
+}
