@@ -1,9 +1,11 @@
 //! An effect that says with few numbers what it may say with more in another way: far from the baseline it needs them all, or what it cannot say alone is
 //! another effect's.
 
+use super::bounds::is_bounded;
 use super::data::Data;
 use super::fit::{Fit, fit};
 use super::noise::Noise;
+use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
 
 /// How often a fit is begun anew where the first one was.
@@ -43,14 +45,15 @@ impl Completed {
         let further = |from: Fit, _| fit(data, Some(&from), from.pieces.clone(), noise, &|_| true);
         let fit = (1..COMPLETING).fold(fit(data, Some(fitted), pieces, noise, &|_| true), further);
         let gain = 0.5 * (fitted.chi2 - fit.chi2);
-        (gain > NEEDED_NATS + more as f64).then_some(Self { name, fit })
+        // With numbers enough one bends to what is not its own, as far as it may.
+        (gain > NEEDED_NATS + more as f64 && !is_bounded(&fit)).then_some(Self { name, fit })
     }
 
-    /// Whether `other` says what this one does of what `before` leaves, but for what the effect's form may leave, with no more numbers: no response is exactly
+    /// Whether `other` says what this one does of what `before` leaves, but for what the effect's form may leave before it is not believed, with no more numbers: no response is exactly
     /// a power or a cubic, and with numbers enough one bends to what is not its own.
     pub fn is_said_by(&self, other: &Fit, before: &Fit) -> bool {
         let explained = |fit: &Fit| before.counted() - fit.counted();
-        let least = (1.0 - tolerance(self.name)) * explained(&self.fit);
+        let least = (1.0 - DISBELIEF * tolerance(self.name)) * explained(&self.fit);
         other.columns.len() <= self.fit.columns.len() && explained(other) >= least
     }
 }

@@ -4,6 +4,7 @@ mod acting;
 mod alias;
 mod alone;
 mod block;
+mod bounds;
 mod camera;
 mod clusters;
 mod codes;

@@ -13,7 +13,7 @@ use super::search::Found;
 pub const OF_CODES: &str = "adc_nonlinearity";
 /// Its strengths, and its shape.
 pub const PARTS: [usize; 2] = [0, 1];
-const PERIOD: usize = 2;
+pub const PERIOD: usize = 2;
 /// Parts of the period in which overtones are looked for: shorter ones are lost in the noise.
 const OVERTONES: [f64; 2] = [2.0, 3.0];
 /// Overtones that a wave would leave by chance in so small a share of campaigns are none of a wave.

@@ -183,7 +183,7 @@ impl Pass {
         before: &Fit,
         fits: impl Iterator<Item = (usize, Fit)>,
         candidates: &[Candidate],
-        is_loose: bool,
+        may_stand_for: &dyn Fn(&Fit, &Fit) -> bool,
     ) -> Option<(Model, Fit, Vec<String>)> {
         // Of residuals as they count, and of all that they have beyond.
         let explained =
@@ -195,14 +195,17 @@ impl Pass {
         // A model that is no number anywhere fits nothing.
         judged.retain(|fitted| fitted.0.is_finite());
         judged.sort_by(|a, b| b.0.total_cmp(&a.0));
-        // Far from the baseline no form is exact: of those that explain about as much as the best one, the simplest. What `is_loose` is that, or the like.
-        let most = explained(&judged.first()?.2);
+        // Where no form is exact: of those that explain about as much as the best one, the simplest.
+        let best = &judged.first()?.2;
+        let most = explained(best);
         let is_believed = |&place: &usize| {
             let (_, block, fit) = &judged[place];
             let left = DISBELIEF * tolerance(self.name(*block, candidates));
-            explained(fit).iter().zip(most).all(|(explained, most)| *explained > (1.0 - left) * most)
+            let is_as_good =
+                || explained(fit).iter().zip(most).all(|(explained, most)| *explained > (1.0 - left) * most);
+            place == 0 || may_stand_for(fit, best) && is_as_good()
         };
-        let believed = (0..judged.len()).filter(|place| is_loose && (*place == 0 || is_believed(place)));
+        let believed = (0..judged.len()).filter(is_believed);
         let simplest = believed.min_by_key(|&place| judged[place].2.columns.len());
         let (ln_bayes, block, fit) = judged.remove(simplest.unwrap_or(0));
         // What its form may leave does not tell it from others either, nor what theirs may.

@@ -9,6 +9,7 @@ use super::exchange::exchange;
 use super::fit::{Fit, fit, fit_below};
 use super::lamps::FLICKER;
 use super::noise::Noise;
+use super::overtones::{OF_CODES, PERIOD};
 use super::pass::{DISBELIEF, Pass, RIVAL_NATS, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::power::Detectable;
@@ -291,8 +292,12 @@ impl<'a> Search<'a> {
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
                 let fits = entrants.into_iter().map(|entrant| (entrant.block, fitted(entrant.pieces)));
-                // Nor is a form exact beside what nobody described.
-                pass.fittest(current, fits, candidates, is_far || data.assumed.camera)
+                let more = |fit: &Fit| fit.columns.len().saturating_sub(current.columns.len());
+                // Nor is a form exact beside what nobody described: what says the same by much fewer numbers is believed.
+                let is_simpler = |fit: &Fit, best: &Fit| 2 * more(fit) <= more(best) || is_bend(data, best);
+                let may_stand_for =
+                    |fit: &Fit, best: &Fit| is_far || data.assumed.camera && is_simpler(fit, best);
+                pass.fittest(current, fits, candidates, &may_stand_for)
             };
             let (mut single, mut fitted, mut near) = contest(&others)?;
             if !others.is_empty() && single.ln_bayes < THRESHOLD {
@@ -345,6 +350,12 @@ impl<'a> Search<'a> {
         self.current = fitted;
         true
     }
+}
+
+/// Whether a wave over the codes has no whole period among the signals: a smooth curve is the response's, as a rule, whatever its form.
+fn is_bend(data: &Data, fit: &Fit) -> bool {
+    let is_long = |piece: &Piece| piece.effect.name == OF_CODES && piece.values[PERIOD] > data.span_dn();
+    fit.pieces.iter().any(is_long)
 }
 
 /// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.

@@ -1,9 +1,10 @@
 //! The answer as other programs read it: `vuris-verdict/1`.
 
 use super::alone::Alone;
+use super::bounds::is_bounded;
 use super::conclusion::Verdict;
 use super::data::Data;
-use super::effect_row::{effect_row, is_bounded};
+use super::effect_row::effect_row;
 use super::evidence::tail;
 use super::fit::{fit, unfitted};
 use super::held_out::{HeldOut, held_out};
