@@ -102,6 +102,13 @@ impl Data {
         let data = Self { close: close.map(Arc::new), ..seen(grid)? };
         if data.free_shares().into_iter().all(|share| share <= 0.0) {
             let samples = data.samples_of_pixels().into_iter().max().unwrap_or(0);
+            if samples == 0 {
+                return Err(Problem::in_file(
+                    &first.folder,
+                    "no sample counts: all codes are 0, or at full scale",
+                )
+                .expected("pixels that see light and are not clipped"));
+            }
             return Err(Problem::in_file(
                 &first.folder,
                 format_args!("no pixel has more than {samples} samples, and each has {LEAST_OWN} numbers of its own (amplitude, phase, offset) or more"),
@@ -127,11 +134,31 @@ impl Data {
 
     /// Of each pixel, what share of its samples' noise is left beside its own numbers, which are fitted to them.
     pub fn free_shares(&self) -> Vec<f64> {
-        let share = |(pixel, samples): (usize, usize)| {
-            let own = LEAST_OWN + usize::from(self.tells_constant(pixel));
-            samples.saturating_sub(own) as f64 / samples.max(1) as f64
+        let samples = self.samples_of_pixels().into_iter();
+        let share =
+            |(samples, own): (usize, usize)| samples.saturating_sub(own) as f64 / samples.max(1) as f64;
+        samples.zip(self.own_numbers()).map(share).collect()
+    }
+
+    /// Which pixels have samples enough for their own numbers.
+    pub fn are_told(&self) -> Vec<bool> {
+        let samples = self.samples_of_pixels().into_iter();
+        samples.zip(self.own_numbers()).map(|(samples, own)| samples >= own).collect()
+    }
+
+    /// How many numbers of its own the frames could tell of each pixel.
+    fn own_numbers(&self) -> Vec<usize> {
+        let lit = || self.takes.iter().flat_map(|take| &take.moments).filter(|moment| moment.lit);
+        // At one distance constant and ambient light are one number.
+        let places_m = || lit().map(Moment::commanded_m);
+        let (nearest_m, farthest_m) =
+            (places_m().fold(f64::INFINITY, f64::min), places_m().fold(0.0, f64::max));
+        let moves = farthest_m > nearest_m;
+        let own = |pixel: usize| match lit().next() {
+            None => 1,
+            Some(_) => LEAST_OWN + usize::from(self.has_dark || self.target[pixel] && moves),
         };
-        self.samples_of_pixels().into_iter().enumerate().map(share).collect()
+        (0..self.pixels()).map(own).collect()
     }
 
     /// The pixels of `grid`.

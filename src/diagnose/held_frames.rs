@@ -1,6 +1,7 @@
 //! Which frames of a few sets may be held out together: those that the others still tell.
 
 use super::data::Data;
+use crate::physics::Moment;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
 
@@ -24,28 +25,31 @@ pub struct Holding {
 
 impl Holding {
     /// For `data` the one with as few frames at a time as the others need to have phases enough, and to tell the pixels' numbers no noisier than a frame is; else
-    /// the one that tells them best. Nothing where the others never tell them.
+    /// the one that tells them best. Nothing where the others never tell them. As if all frames were of one place.
     pub fn of(data: &Data) -> Option<Self> {
-        let moments = data.takes.iter().flat_map(|take| &take.moments);
-        let angles_rad: Vec<f64> = moments.map(|moment| moment.step_rad + moment.offset_rad).collect();
+        let angle = |m: &Moment| m.lit.then_some(m.step_rad + m.offset_rad);
+        let angles_rad: Vec<Option<f64>> =
+            data.takes.iter().flat_map(|take| &take.moments).map(angle).collect();
         let most = data.takes.iter().map(|take| take.frames).max().unwrap_or(0);
-        let mut ways: Vec<Self> = (2..=most).map(|every| Self::every(&angles_rad, every)).collect();
-        ways.retain(|way| way.worst().is_finite());
-        let needed = PHASES.min(phases(&angles_rad).saturating_sub(1));
-        let is_good = |way: &Self| way.worst() <= 1.0 + AS_NOISY && way.phases >= needed;
-        let good = ways.iter().position(is_good);
-        let best = || (0..ways.len()).min_by(|&a, &b| ways[a].worst().total_cmp(&ways[b].worst()));
-        good.or_else(best).map(|way| ways.swap_remove(way))
+        let ways = || (2..=most).map(|every| Self::every(&angles_rad, every));
+        let needed = PHASES.min(phases(angles_rad.iter().copied().flatten()).saturating_sub(1));
+        let good = ways().find(|way| way.worst() <= 1.0 + AS_NOISY && way.phases >= needed);
+        let told = || ways().filter(|way| way.worst().is_finite());
+        good.or_else(|| told().min_by(|a, b| a.worst().total_cmp(&b.worst())))
     }
 
     /// Where `every` so many-th frame is held.
-    fn every(angles_rad: &[f64], every: usize) -> Self {
-        let row = |frame: usize| Vector3::new(angles_rad[frame].cos(), angles_rad[frame].sin(), 1.0);
+    fn every(angles_rad: &[Option<f64>], every: usize) -> Self {
+        // Without the camera's light there is the rest of it.
+        let row = |frame: usize| {
+            let (sine, cosine) = angles_rad[frame].map_or((0.0, 0.0), f64::sin_cos);
+            Vector3::new(cosine, sine, 1.0)
+        };
         let (mut variances, mut fewest) = (vec![f64::INFINITY; angles_rad.len()], usize::MAX);
         for part in 0..every {
             let (held, others): (Vec<usize>, Vec<usize>) =
                 (0..angles_rad.len()).partition(|frame| frame % every == part);
-            fewest = fewest.min(phases(&others.iter().map(|&other| angles_rad[other]).collect::<Vec<_>>()));
+            fewest = fewest.min(phases(others.iter().filter_map(|&other| angles_rad[other])));
             let normal: Matrix3<f64> = others.iter().map(|&other| row(other) * row(other).transpose()).sum();
             let is_told = normal.symmetric_eigenvalues().min() > 1e-6 * normal.trace();
             if let Some(inverse) = normal.try_inverse().filter(|_| is_told) {
@@ -63,8 +67,8 @@ impl Holding {
 }
 
 /// How many different phases there are.
-fn phases(angles_rad: &[f64]) -> usize {
-    let mut phases: Vec<f64> = angles_rad.iter().map(|angle| angle.rem_euclid(TAU)).collect();
+fn phases(angles_rad: impl Iterator<Item = f64>) -> usize {
+    let mut phases: Vec<f64> = angles_rad.map(|angle| angle.rem_euclid(TAU)).collect();
     phases.sort_by(f64::total_cmp);
     let Some((&first, &last)) = phases.first().zip(phases.last()) else { return 0 };
     let apart = phases.windows(2).filter(|pair| pair[1] - pair[0] > ONE_PHASE_RAD).count();
@@ -76,8 +80,8 @@ fn phases(angles_rad: &[f64]) -> usize {
 mod tests {
     use super::*;
 
-    fn steps(count: usize, of_turn: f64) -> Vec<f64> {
-        (0..count).map(|step| TAU * of_turn * step as f64).collect()
+    fn steps(count: usize, of_turn: f64) -> Vec<Option<f64>> {
+        (0..count).map(|step| Some(TAU * of_turn * step as f64)).collect()
     }
 
     /// By hand: N equal steps over a turn tell a prediction to 3 / N of the held half, and one of four frames is told by the three others with three times
@@ -93,10 +97,12 @@ mod tests {
         assert_eq!([worst(4, 0.25, 2), worst(3, 1.0 / 3.0, 3)], [f64::INFINITY; 2]);
         // Every other step of two turns in twelve has three phases.
         assert_eq!(Holding::every(&steps(12, 1.0 / 6.0), 2).phases, 3);
-        let turn = [0.0, TAU - 0.01];
-        assert_eq!(
-            [phases(&steps(12, 1.0 / 6.0)), phases(&steps(5, 0.2)), phases(&turn), phases(&[])],
-            [6, 5, 1, 0]
-        );
+        // Four frames without the camera's light have no phase, and tell but one number.
+        let dark = [steps(4, 0.25), vec![None; 4]].concat();
+        assert_eq!(Holding::every(&dark, 2).worst(), f64::INFINITY);
+        assert_eq!(Holding::every(&dark, 4).phases, 3);
+        let of = |angles_rad: &[f64]| phases(angles_rad.iter().copied());
+        let two_turns: Vec<f64> = steps(12, 1.0 / 6.0).into_iter().flatten().collect();
+        assert_eq!([of(&two_turns), of(&[0.0, 1.0, 2.0]), of(&[0.0, TAU - 0.01]), of(&[])], [6, 3, 1, 0]);
     }
 }

@@ -9,7 +9,7 @@ use super::fit::{Fit, beside, fit, improved};
 use super::held_frames::Holding;
 use super::jitters::Jitters;
 use super::noise::Noise;
-use super::seen::{Agreement, Seen, agreement, seen};
+use super::seen::{Agreement, BLOCKS, Seen, agreement, seen};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -69,7 +69,15 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     let is_same = after.fit.pieces.is_empty() && after.noise == before.noise;
     let old = if is_same { new.clone() } else { predict(before) };
     let new = with_jitters(new, after.jitters);
-    let differences: Vec<f64> = old.iter().zip(&new).map(|(old, new)| old.unlikely - new.unlikely).collect();
+    // Frames of a set are not predicted independently, blocks of the image are; what is off at random by frames is not of a block.
+    let of_blocks = |(old, new): (&Seen, &Seen)| -> Vec<f64> {
+        let blocks = BLOCKS * new.fold / HALVES..BLOCKS * (new.fold + 1) / HALVES;
+        blocks.map(|block| old.of_blocks[block] - new.of_blocks[block]).collect()
+    };
+    let differences: Vec<f64> = match is_few && !after.has_jitters() {
+        true => old.iter().zip(&new).flat_map(of_blocks).collect(),
+        false => old.iter().zip(&new).map(|(old, new)| old.unlikely - new.unlikely).collect(),
+    };
     let count = differences.len().max(1) as f64;
     let mean = differences.iter().sum::<f64>() / count;
     let scatter = (differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / count).sqrt();
@@ -112,32 +120,40 @@ fn with_jitters(mut sets: Vec<Seen>, exist: [bool; 2]) -> Vec<Seen> {
 /// Halves of the image.
 const HALVES: usize = 2;
 
-/// A half of the image, some frames at a time: `(a number of its own for each set, what it shows)`.
-fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) -> Vec<(usize, Seen)> {
+/// A half of the image, some frames at a time: `(a number of its own in each set, what it shows)`.
+fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) -> BTreeMap<usize, Seen> {
     let Predictor { fit: of, noise, .. } = by;
-    let half_of = |pixel: usize| HALVES * pixel / data.pixels().max(1);
-    let elsewhere = data.only(|_, pixel| half_of(pixel) != half);
+    let part_of = |pixel: usize, parts: usize| parts * pixel / data.pixels().max(1);
+    let is_here = |pixel: usize| part_of(pixel, HALVES) == half;
+    let elsewhere = data.only(|_, pixel| !is_here(pixel));
     let pieces = fit(&elsewhere, Some(of), of.pieces.clone(), noise, &|_| true).pieces;
     let every = holding.every;
-    let of_part = |part: usize| {
+    let mut all = BTreeMap::<usize, Seen>::new();
+    for part in 0..every {
         let is_held = |frame: usize| frame % every == part;
-        let between = data.only(|frame, pixel| half_of(pixel) == half && !is_held(frame));
-        // Pixels that were fitted to all frames have seen the ones that are held.
+        // Pixels that were fitted to all frames have seen the ones that are held; those of the other half light this one as before.
+        let between = data.only(|frame, pixel| !is_here(pixel) || !is_held(frame));
         let pixels = beside(&between, &pieces, noise);
-        let held = data.only(|frame, pixel| half_of(pixel) == half && is_held(frame));
-        let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
-        let fold = half * every + part;
+        let told = between.are_told();
         // What predicts has noise of its own.
         let of_held = holding.variances.iter().skip(part).step_by(every);
         let variance = of_held.clone().sum::<f64>() / of_held.len().max(1) as f64;
-        let of_set = |(number, (take, set))| {
-            let seen = seen(&held, &tangents, by, take, set)?;
+        let by = Predictor { noise: noise.times(variance), ..by };
+        let held = data.only(|frame, pixel| is_here(pixel) && is_held(frame) && told[pixel]);
+        let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
+        for (number, (take, set)) in data.sets().into_iter().enumerate() {
+            let Some(seen) = seen(&held, &tangents, by, take, set) else { continue };
             // A part of the frames has no distance.
-            Some((HALVES * every * number + fold, Seen { variance, distance_m: f64::NAN, fold, ..seen }))
-        };
-        data.sets().into_iter().enumerate().filter_map(of_set).collect::<Vec<_>>()
-    };
-    (0..every).flat_map(of_part).collect()
+            let seen = Seen { distance_m: f64::NAN, fold: half, ..seen };
+            let place = HALVES * number + half;
+            let seen = match all.remove(&place) {
+                Some(before) => before.and(seen),
+                None => seen,
+            };
+            all.insert(place, seen);
+        }
+    }
+    all
 }
 
 /// The sets of a fold, by number, seen by a model that was fitted to the others. For the pixels' own numbers one step from what was fitted to all is
@@ -223,7 +239,7 @@ mod tests {
 
     /// Odd and even frames tell the p numbers of a pixel alike. So, of its N samples, N - 2 p combinations are predicted by 0 and show their
     /// noise; in the others, p in the odd frames and p in the even ones, either half is predicted by the other and shows the noise of both,
-    /// twice the same: 4 times a squared deviate. Their sum has the mean N + 2 p and the variance 2 (N - 2 p) + 16 (2 p), and chi squared is that over what
+    /// twice the same: 4 times a squared deviate. Their sum has the mean N + 2 p and the variance 2 (N - 2 p) + 16 (2 p); chi squared is that over what
     /// predictions by three numbers have, 1 + 3 / 96. A fit that has seen what it predicts has the mean N - p and the variance 2 (N - p).
     #[test]
     fn held_frames_of_a_few_sets_are_as_far_off_as_their_noise_and_that_of_the_fit() {
@@ -238,8 +254,8 @@ mod tests {
         let n = baseline.samples as f64;
         assert_eq!(baseline.samples, 3 * 64 * data.pixels(), "all samples count");
         let own = 1.0 + 3.0 / 96.0;
-        let (mean, deviation) = ((n + 2.0 * p) / own, (2.0 * n + 28.0 * p).sqrt() / own);
-        let chi2 = held.before.chi2_per_dof * n;
+        let (mean, deviation) = (n + 2.0 * p, (2.0 * n + 28.0 * p).sqrt());
+        let chi2 = own * held.before.chi2_per_dof * n;
         assert!((chi2 - mean).abs() < 4.0 * deviation, "{chi2}, not {mean} +- {deviation}");
         let (seen, seen_deviation) = (n - p, (2.0 * (n - p)).sqrt());
         assert!(mean - 4.0 * deviation > seen + 4.0 * seen_deviation, "what was seen would pass: {seen}");

@@ -183,14 +183,19 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> O
 
 /// What lines explain that are no drift to frames that are a `period` apart: chi squared, of each frequency of a `scan`.
 fn moving(groups: &[Vec<(f64, Sum)>], Scan { low, step, powers }: &Scan, period: f64) -> Vec<f64> {
+    let is_drift = drifts(groups, period);
+    let power =
+        |(number, &power): (usize, &f64)| if is_drift(low + number as f64 * step) { 0.0 } else { power };
+    powers.iter().enumerate().map(power).collect()
+}
+
+/// Whether a line of a frequency is a drift to frames that are a `period` apart.
+fn drifts(groups: &[Vec<(f64, Sum)>], period: f64) -> impl Fn(f64) -> bool {
     let gaps: Vec<Vec<(f64, f64)>> = groups.iter().map(|group| gaps(group)).collect();
-    let is_drift = |number: usize| {
-        let frequency = low + number as f64 * step;
+    move |frequency| {
         let cycles = if is_mains(frequency) { MAINS_DRIFT_CYCLES } else { DRIFT_CYCLES };
         period > 0.0 && gaps.iter().all(|gaps| seen_cycles(gaps, frequency) < cycles)
-    };
-    let power = |(number, &power): (usize, &f64)| if is_drift(number) { 0.0 } else { power };
-    powers.iter().enumerate().map(power).collect()
+    }
 }
 
 /// What the strongest line between the `ends` explains, chi squared, wherever it is between the steps of a scan: what lines that frames see alike explain may
@@ -198,7 +203,11 @@ fn moving(groups: &[Vec<(f64, Sum)>], Scan { low, step, powers }: &Scan, period:
 pub fn most_between(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> f64 {
     let Some(scan) = Scan::of(groups, ends, ANY) else { return 0.0 };
     let lines = moving(groups, &scan, period);
-    let finest = |number| finer(groups, &scan, ANY, number).chi2;
+    let is_drift = drifts(groups, period);
+    let finest = |number: usize| {
+        let line = finer(groups, &scan, ANY, number);
+        if is_drift(line.frequency) { lines[number] } else { line.chi2 }
+    };
     peaks(&lines).into_iter().map(finest).fold(0.0, f64::max)
 }
 

@@ -43,6 +43,8 @@ fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Opt
 
 /// What swings by more than this share of the ambient light, for which it is taken, is something else.
 const ALL_LIGHT: f64 = 1.0;
+/// By so many standard deviations.
+const CLEARLY: f64 = 3.0;
 
 /// Where a line is that was taken for a lamp's flicker, but has several sources, or is none that lamps on the mains have.
 fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<(&'static str, Place)> {
@@ -54,7 +56,9 @@ fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<(
     let series = without(data, found, noise, FLICKER);
     let what = match is_one(&shown) {
         false => "differs from recording to recording",
-        true if clearest.size.0 > ALL_LIGHT => "swings by more than all ambient light",
+        true if clearest.size.0 - CLEARLY * clearest.size.1 > ALL_LIGHT => {
+            "swings by more than all ambient light"
+        }
         true if !series.may_be_lamps(clearest.hz, inflation) => "is not twice the mains' frequency",
         true => return None,
     };

@@ -24,6 +24,12 @@ pub struct Noise {
 }
 
 impl Noise {
+    /// So many times the variance.
+    pub fn times(self, many: f64) -> Self {
+        let [floor, slope, square] = [self.floor, self.slope, self.square].map(|part| many * part);
+        Self { floor, slope, square, ..self }
+    }
+
     /// One over the variance.
     #[inline(always)]
     pub fn weight(&self, signal_dn: f64) -> f64 {

@@ -294,7 +294,9 @@ impl<'a> Search<'a> {
                 let fits = entrants.into_iter().map(|entrant| (entrant.block, fitted(entrant.pieces)));
                 let more = |fit: &Fit| fit.columns.len().saturating_sub(current.columns.len());
                 // Nor is a form exact beside what nobody described: what says the same by much fewer numbers is believed.
-                let is_simpler = |fit: &Fit, best: &Fit| 2 * more(fit) <= more(best) || is_bend(data, best);
+                let is_simpler = |fit: &Fit, best: &Fit| {
+                    2 * more(fit) <= more(best) || is_bend(data, &best.pieces[current.pieces.len()..])
+                };
                 let may_stand_for =
                     |fit: &Fit, best: &Fit| is_far || data.assumed.camera && is_simpler(fit, best);
                 pass.fittest(current, fits, candidates, &may_stand_for)
@@ -353,9 +355,9 @@ impl<'a> Search<'a> {
 }
 
 /// Whether a wave over the codes has no whole period among the signals: a smooth curve is the response's, as a rule, whatever its form.
-fn is_bend(data: &Data, fit: &Fit) -> bool {
+fn is_bend(data: &Data, pieces: &[Piece]) -> bool {
     let is_long = |piece: &Piece| piece.effect.name == OF_CODES && piece.values[PERIOD] > data.span_dn();
-    fit.pieces.iter().any(is_long)
+    pieces.iter().any(is_long)
 }
 
 /// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.

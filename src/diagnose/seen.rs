@@ -32,10 +32,10 @@ pub struct Seen {
     /// Its recording.
     pub take: usize,
     pub chi2: f64,
-    /// Variance of a difference from the prediction, in variances of a sample's noise: what predicts may have noise of its own.
-    pub variance: f64,
     /// Minus twice the logarithm of the likelihood, but for a constant.
     pub unlikely: f64,
+    /// The same of each of some [`BLOCKS`] of the image.
+    pub of_blocks: Vec<f64>,
     pub samples: usize,
     /// Squared difference of all samples, DN².
     pub square_dn2: f64,
@@ -46,16 +46,37 @@ pub struct Seen {
     pub distance_m: f64,
 }
 
+/// Blocks of the image, which noise makes differ by chance.
+pub const BLOCKS: usize = 16;
+
+impl Seen {
+    /// Both, of the same set.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.jitters.extend(other.jitters);
+        self.chi2 += other.chi2;
+        self.unlikely += other.unlikely;
+        self.of_blocks.iter_mut().zip(other.of_blocks).for_each(|(block, other)| *block += other);
+        self.samples += other.samples;
+        self.square_dn2 += other.square_dn2;
+        self.means_dn2 += other.means_dn2;
+        self.frames += other.frames;
+        self
+    }
+}
+
 /// Agreement of all `sets`.
 pub fn agreement(sets: &[Seen]) -> Agreement {
     let samples = sets.iter().map(|set| set.samples).sum::<usize>().max(1) as f64;
     let frames = sets.iter().map(|set| set.frames).sum::<usize>().max(1) as f64;
     let distances: Vec<f64> =
         sets.iter().map(|set| set.distance_m).filter(|distance| distance.is_finite()).collect();
+    // What was not predicted agrees with nothing.
+    let is_known = |value: f64| if sets.is_empty() { f64::NAN } else { value };
     Agreement {
-        chi2_per_dof: sets.iter().map(|set| set.chi2 / set.variance).sum::<f64>() / samples,
-        rms_dn: (sets.iter().map(|set| set.square_dn2).sum::<f64>() / samples).sqrt(),
-        frame_mean_rms_dn: (sets.iter().map(|set| set.means_dn2).sum::<f64>() / frames).sqrt(),
+        chi2_per_dof: is_known(sets.iter().map(|set| set.chi2).sum::<f64>() / samples),
+        rms_dn: is_known((sets.iter().map(|set| set.square_dn2).sum::<f64>() / samples).sqrt()),
+        frame_mean_rms_dn: is_known((sets.iter().map(|set| set.means_dn2).sum::<f64>() / frames).sqrt()),
         distance_rms_m: (distances.iter().map(|d| d * d).sum::<f64>() / distances.len().max(1) as f64).sqrt(),
     }
 }
@@ -63,15 +84,23 @@ pub fn agreement(sets: &[Seen]) -> Agreement {
 /// What a set shows; nothing where it was left out.
 pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set: usize) -> Option<Seen> {
     let (noise, take) = (by.noise, &data.takes[number]);
-    let mut seen = Seen { take: number, variance: 1.0, ..Seen::default() };
+    let mut seen = Seen { take: number, of_blocks: vec![0.0; BLOCKS], ..Seen::default() };
     let mut phasors = vec![(Complex64::default(), Complex64::default()); data.pixels()];
     for frame in 0..take.frames {
         let index = set * take.frames + frame;
         let base = tangents.base(number, index);
         let (roots, residuals) = whiten(data, number, index, &base, noise);
         let measured = &take.signal_dn[index * data.pixels()..(index + 1) * data.pixels()];
-        seen.unlikely += by.reference.ln_variance(measured, &roots)
-            + tails(measured, &base, &roots, &residuals).sum::<f64>();
+        for (block, unlikely) in seen.of_blocks.iter_mut().enumerate() {
+            let pixels = block * data.pixels() / BLOCKS..(block + 1) * data.pixels() / BLOCKS;
+            let [roots, residuals, base] =
+                [&roots[..], &residuals[..], &base[..]].map(|of| &of[pixels.clone()]);
+            let measured = &measured[pixels];
+            let squares = residuals.iter().map(|residual| residual * residual).sum::<f64>();
+            *unlikely += by.reference.ln_variance(measured, roots)
+                + tails(measured, base, roots, residuals).sum::<f64>()
+                + squares;
+        }
         if by.has_jitters() {
             let frame = tangents.frame(number, index);
             let moment = &take.moments[index];
@@ -82,7 +111,6 @@ pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set:
         for pixel in (0..data.pixels()).filter(|&pixel| roots[pixel] > 0.0) {
             let difference_dn = f64::from(measured[pixel]) - base[pixel];
             seen.chi2 += residuals[pixel] * residuals[pixel];
-            seen.unlikely += residuals[pixel] * residuals[pixel];
             seen.square_dn2 += difference_dn * difference_dn;
             sum_dn += difference_dn;
             samples += 1;
@@ -101,6 +129,7 @@ pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set:
     let moment = &take.moments[set * take.frames];
     let has_distance = moment.lit && sum != Complex64::default();
     seen.distance_m = if has_distance { sum.arg() / phase_rad(1.0, moment.frequency_hz) } else { f64::NAN };
+    seen.unlikely = seen.of_blocks.iter().sum();
     (seen.samples > 0).then_some(seen)
 }
 
