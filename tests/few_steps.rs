@@ -51,8 +51,9 @@ fn sinusoids_in_few_steps_are_clean() {
         assert_eq!(verdict["verdict"], "clean", "{steps}: {verdict:#}");
         let [chi2, rms_dn] =
             ["chi2_per_dof_before", "rms_dn_before"].map(|key| verdict["held_out"][key].as_f64().unwrap());
-        // The noise itself is measured on as few.
-        assert!((chi2 - 1.0).abs() < 0.1, "{steps}: {chi2}");
+        // The noise itself is measured on as few. Of four frames each is told by three of other brightness, and their noise is not its own.
+        let more = if steps == 4 { 0.3 } else { 0.1 };
+        assert!((-0.1..more).contains(&(chi2 - 1.0)), "{steps}: {chi2}");
         assert!(rms_dn < 5.0, "{steps}: {rms_dn} DN");
     }
 }
