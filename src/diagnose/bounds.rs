@@ -24,3 +24,24 @@ pub fn is_bounded(fit: &Fit) -> bool {
     };
     fit.columns.iter().any(of_column)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::effects;
+
+    /// A value at either end is at its bound, one that is off is not, and an end that is many full scales is nearer.
+    #[test]
+    fn what_would_have_gone_on_is_at_its_bound() {
+        let parameter = |effect: &str, number: usize| &effects::named(effect).unwrap().parameters[number];
+        let errors = parameter("phase_step_errors", 0);
+        assert_eq!(
+            [-0.5, -0.49, 0.0, 0.499, 0.5].map(|rad| is_at_bound(errors, rad, 255.0)),
+            [true, false, false, false, true]
+        );
+        let share = parameter("lens_scatter", 0);
+        assert!(!is_at_bound(share, 0.0, 255.0) && is_at_bound(share, 0.5, 255.0));
+        let wave = parameter("adc_nonlinearity", 0);
+        assert!(is_at_bound(wave, 0.02 * 255.0, 255.0) && !is_at_bound(wave, 0.02 * 255.0, 4095.0));
+    }
+}

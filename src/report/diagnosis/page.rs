@@ -50,6 +50,10 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
     let map =
         |location: &Location| png_data_uri(geometry, &location.map, (0.0, limit), ColourMap::Sequential);
     let held = &answer.held_out;
+    let shown = |value: f64, digits: usize| match value.is_finite() {
+        true => format!("{value:.digits$}"),
+        false => "nothing can be held out".to_owned(),
+    };
     let page = Page {
         title: campaign.display().to_string(),
         verdict: answer.verdict.replace('_', " "),
@@ -95,14 +99,10 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
         held_out: vec![
             vec![
                 "chi squared a sample".to_owned(),
-                format!("{:.5}", held.chi2_per_dof_before),
-                format!("{:.5}", held.chi2_per_dof_after),
+                shown(held.chi2_per_dof_before, 5),
+                shown(held.chi2_per_dof_after, 5),
             ],
-            vec![
-                "raw frames, DN RMS".to_owned(),
-                format!("{:.4}", held.rms_dn_before),
-                format!("{:.4}", held.rms_dn_after),
-            ],
+            vec!["raw frames, DN RMS".to_owned(), shown(held.rms_dn_before, 4), shown(held.rms_dn_after, 4)],
             vec![
                 "distance of a set, mm RMS".to_owned(),
                 format!("{:.3}", 1e3 * held.distance_rms_m_before),

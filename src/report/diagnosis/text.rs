@@ -123,7 +123,15 @@ pub fn paragraph(answer: &Answer) -> String {
         "unexplained" => format!(
             "The recordings differ from the simulation, over {place}, and no effect that is known here explains it."
         ),
-        "partly_explained" => format!("{} Something else is left.", names(&answer.effects)),
+        "partly_explained" => {
+            let is_bounded =
+                answer.effects.iter().flat_map(|effect| &effect.parameters).any(|row| row.at_bound);
+            let left = match is_bounded {
+                true => "A value came to its bound: there is more of it, or something else.",
+                false => "Something else is left.",
+            };
+            format!("{} {left}", names(&answer.effects))
+        }
         _ => names(&answer.effects),
     }
 }
