@@ -212,7 +212,7 @@ impl Model {
             };
             let mut is_taken = takes(&round);
             // What pixels nearly absorb is large where it shows little: what is wrong with the step may be theirs.
-            if !is_taken && damping == 0.0 && !self.round.is_far() && self.round.gain > UNSETTLED {
+            if !is_taken && !self.round.is_far() && self.round.gain > UNSETTLED {
                 pixels = settle(&pixels);
                 round = Round::new(data, &pixels, &pieces, noise, counts);
                 is_taken = takes(&round);
