@@ -49,8 +49,8 @@ impl Completed {
         (gain > NEEDED_NATS + more as f64 && !is_bounded(&fit)).then_some(Self { name, fit })
     }
 
-    /// Whether `other` says what this one does of what `before` leaves, but for what the effect's form may leave before it is not believed, with no more numbers: no response is exactly
-    /// a power or a cubic, and with numbers enough one bends to what is not its own.
+    /// Whether `other` says what this one does of what `before` leaves, but for what the effect's form may leave before it is not believed, with no more
+    /// numbers: no response is exactly a power or a cubic, and with numbers enough one bends to what is not its own.
     pub fn is_said_by(&self, other: &Fit, before: &Fit) -> bool {
         let explained = |fit: &Fit| before.counted() - fit.counted();
         let least = (1.0 - DISBELIEF * tolerance(self.name)) * explained(&self.fit);

@@ -22,7 +22,7 @@ pub struct HeldOut {
     pub after: Agreement,
     /// Each scheme's frames a set, and the distance's RMS before and after, m.
     pub by_frames: Vec<(usize, f64, f64)>,
-    /// The improvement of the likelihood over its scatter from set to set.
+    /// The improvement of the likelihood over its scatter from set to set; of few sets, from block to block of the image.
     pub z: f64,
     /// Sets that were predicted.
     pub sets: usize,
@@ -120,11 +120,10 @@ fn with_jitters(mut sets: Vec<Seen>, exist: [bool; 2]) -> Vec<Seen> {
 /// Halves of the image.
 const HALVES: usize = 2;
 
-/// A half of the image, some frames at a time: `(a number of its own in each set, what it shows)`.
+/// A half of the image, some frames at a time: `(a number of its own for each set, what it shows)`.
 fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) -> BTreeMap<usize, Seen> {
     let Predictor { fit: of, noise, .. } = by;
-    let part_of = |pixel: usize, parts: usize| parts * pixel / data.pixels().max(1);
-    let is_here = |pixel: usize| part_of(pixel, HALVES) == half;
+    let is_here = |pixel: usize| HALVES * pixel / data.pixels().max(1) == half;
     let elsewhere = data.only(|_, pixel| !is_here(pixel));
     let pieces = fit(&elsewhere, Some(of), of.pieces.clone(), noise, &|_| true).pieces;
     let every = holding.every;

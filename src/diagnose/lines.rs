@@ -158,7 +158,7 @@ impl Series {
 /// Where frames are a `period` apart: not those that go through whole turns from each frame to the next, or nearly.
 pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> Option<Line> {
     let scan = Scan::of(groups, ends, ANY)?;
-    let lines = moving(groups, &scan, period);
+    let lines = moving(&scan, &drifts(groups, period));
     let Scan { low, step, .. } = scan;
     let line = |number: usize| Line {
         frequency: low + number as f64 * step,
@@ -181,9 +181,8 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> O
     Some(images.max_by(|a, b| a.chi2.total_cmp(&b.chi2)).unwrap_or(best))
 }
 
-/// What lines explain that are no drift to frames that are a `period` apart: chi squared, of each frequency of a `scan`.
-fn moving(groups: &[Vec<(f64, Sum)>], Scan { low, step, powers }: &Scan, period: f64) -> Vec<f64> {
-    let is_drift = drifts(groups, period);
+/// What lines explain that are no drift to frames: chi squared, of each frequency of a scan.
+fn moving(Scan { low, step, powers }: &Scan, is_drift: &dyn Fn(f64) -> bool) -> Vec<f64> {
     let power =
         |(number, &power): (usize, &f64)| if is_drift(low + number as f64 * step) { 0.0 } else { power };
     powers.iter().enumerate().map(power).collect()
@@ -202,8 +201,8 @@ fn drifts(groups: &[Vec<(f64, Sum)>], period: f64) -> impl Fn(f64) -> bool {
 /// be compared.
 pub fn most_between(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> f64 {
     let Some(scan) = Scan::of(groups, ends, ANY) else { return 0.0 };
-    let lines = moving(groups, &scan, period);
     let is_drift = drifts(groups, period);
+    let lines = moving(&scan, &is_drift);
     let finest = |number: usize| {
         let line = finer(groups, &scan, ANY, number);
         if is_drift(line.frequency) { lines[number] } else { line.chi2 }

@@ -177,7 +177,7 @@ impl Pass {
     }
 
     /// Of blocks and their fits, to data of which `before` was the fit: the best one, with its fit, and the effects that come as near as
-    /// its form can be trusted; nothing where there are none.
+    /// its form can be trusted; nothing where there are none. Where another fit `may_stand_for` the best one, as simpler, and explains about as much, it is taken.
     pub fn fittest(
         &self,
         before: &Fit,

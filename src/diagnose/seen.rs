@@ -25,7 +25,7 @@ pub struct Agreement {
 /// What a set shows.
 #[derive(Debug, Clone, Default)]
 pub struct Seen {
-    /// The fold, or part, in which it was predicted.
+    /// The fold, or the half of the image, in which it was predicted.
     pub fold: usize,
     /// What each frame says of random errors, where these are looked at.
     pub jitters: Vec<jitters::Frame>,
