@@ -74,7 +74,7 @@ const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
 /// A step that promises to take away so much is not refused before the pixels have settled.
 const UNSETTLED: f64 = 100.0;
 /// Near the noise all steps that are still to come are taken to lower chi squared by so many times what the next one promises at most.
-const HOPE: f64 = 3.0;
+pub const HOPE: f64 = 3.0;
 
 /// Where the sum of squares is so many times the samples, the mismatch is far above the noise: the pixels' own numbers are settled before a
 /// step is judged.

@@ -108,8 +108,6 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let forms = if data.assumed.camera { DISBELIEF } else { 1.0 };
     let names = if is_far || are_raised { None } else { Names::of(&found, &named, explained, forms) };
     places.extend(excess.map(|excess| of_excess(&excess, end.take)));
-    // What still lives where the mismatch lived most was not explained.
-    let first = |places: &[Place]| places.first().map(|place| place.coordinate);
     let case = Case {
         named: &named,
         are_dropped,
@@ -118,7 +116,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         is_misnamed: unnamed.is_some(),
         is_far,
         remainder,
-        stays: !data.assumed.camera && first(&places).is_some() && first(&places) == first(&left),
+        stays: !data.assumed.camera && stays(&places, &left),
         is_described: !data.assumed.camera,
     };
     let mut verdict = case.verdict();
@@ -149,6 +147,18 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
     let locations = [baseline, after];
     Judgement { verdict, places, left, named, remainder, locations, random, found, fit, noise, shared_noise }
+}
+
+/// A coordinate in which a mismatch says this share of what it says where it lives most may be where it lives.
+const LEADING: f64 = 0.9;
+
+/// Whether what is `left` leads where the mismatch lived most, in one of the first `places` or in one that said about as much: it was not explained.
+fn stays(places: &[Place], left: &[Place]) -> bool {
+    let (Some(most), Some(left)) = (places.first(), left.first()) else { return false };
+    let is_leading = |place: &&Place| place.ln_bayes >= LEADING * most.ln_bayes;
+    std::iter::once(most)
+        .chain(places.iter().filter(is_leading))
+        .any(|place| place.coordinate == left.coordinate)
 }
 
 /// The names of what was `found` that stand beside random errors which raise the variance of columns by `inflation`.
@@ -210,5 +220,32 @@ fn asserted(data: &Data, found: &Found, named: &[Named], noise: Noise) -> Fit {
         found.baseline.clone()
     } else {
         fit(data, Some(&found.baseline), pieces, noise, &|_| true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is left leads in a coordinate that said about as much as the first one.
+    #[test]
+    fn a_mismatch_stays_where_it_might_have_led() {
+        let place = |(coordinate, ln_bayes): (&'static str, f64)| Place {
+            coordinate,
+            shape: String::new(),
+            ln_bayes,
+            chi2: (2.0 * ln_bayes, 1),
+            looked: 1.0,
+            take: 0,
+            is_random: false,
+        };
+        let of = |places: &[(&'static str, f64)]| places.iter().copied().map(place).collect::<Vec<_>>();
+        let before = of(&[("amplitude", 300.0), ("column", 280.0), ("phase", 260.0)]);
+        let stays = |left| super::stays(&before, &of(&[(left, 50.0), ("time_s", 20.0)]));
+        assert!(stays("amplitude") && stays("column") && !stays("phase") && !stays("time_s"));
+        assert!(!super::stays(&before, &[]) && !super::stays(&[], &before));
+        // One that random errors lead, with less evidence than columns.
+        let random = of(&[("set", 40.0), ("phase", 60.0)]);
+        assert!(super::stays(&random, &of(&[("set", 9.0)])) && super::stays(&random, &of(&[("phase", 9.0)])));
     }
 }

@@ -49,6 +49,7 @@ mod places;
 mod power;
 mod products;
 mod profiles;
+mod promised;
 mod random;
 mod ranges;
 mod search;

@@ -168,6 +168,13 @@ impl Pass {
         (leaders.len() > 1).then_some((leaders, others))
     }
 
+    /// What the effect `name` explains besides chance, in the way in which that is most, chi squared.
+    pub fn excess(&self, name: &str, candidates: &[Candidate]) -> f64 {
+        let of = (0..self.blocks.len()).filter(|&block| self.name(block, candidates) == name);
+        let excess = of.filter_map(|block| self.scores[block]).map(|(chi2, degrees)| chi2 - degrees as f64);
+        excess.fold(0.0, f64::max)
+    }
+
     /// Evidence of a block of the effect `name` by its `fit` to data whose chi squared was `before`, nats.
     pub fn fitted_ln_bayes(&self, block: usize, name: &str, before: f64, fit: &Fit) -> f64 {
         let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);

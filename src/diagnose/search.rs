@@ -10,9 +10,10 @@ use super::fit::{Fit, fit, fit_below};
 use super::lamps::FLICKER;
 use super::noise::Noise;
 use super::overtones::{OF_CODES, PERIOD};
-use super::pass::{DISBELIEF, Pass, RIVAL_NATS, THRESHOLD};
+use super::pass::{DISBELIEF, Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::power::Detectable;
+use super::promised::Promised;
 use super::simpler::Simpler;
 use std::collections::BTreeSet;
 
@@ -83,13 +84,6 @@ pub fn tolerated(named: &[Named]) -> f64 {
 pub fn form_share(named: &[Named]) -> f64 {
     let all: f64 = named.iter().map(|named| named.score.0).sum();
     if all > 0.0 { DISBELIEF * tolerated(named) / all } else { 0.0 }
-}
-
-/// Two effects of which the strongest was taken first.
-#[derive(Debug, Clone)]
-struct Promised {
-    pieces: Vec<Piece>,
-    named: Vec<Named>,
 }
 
 /// A search, as far as it has come.
@@ -210,9 +204,9 @@ impl<'a> Search<'a> {
                     self.promise(&pass, &candidates, &whole);
                 }
                 let is_named = self.name(&pass, &candidates, best, &whole);
-                self.is_over = !is_named && completed.is_none() && !self.reconsiders();
+                self.is_over = !is_named && completed.is_none() && !self.reconsiders(&pass, &candidates);
             }
-            _ => self.is_over = completed.is_none() && !self.reconsiders(),
+            _ => self.is_over = completed.is_none() && !self.reconsiders(&pass, &candidates),
         }
         if let Some((completed, before, named)) = completed {
             let is_said = self.named.len() > named.len() && completed.is_said_by(&self.current, &before);
@@ -225,21 +219,15 @@ impl<'a> Search<'a> {
 
     /// Whether two effects that tangents at the baseline promised, of which one did not come, fit clearly better than what came: if so, these are named
     /// instead. The strongest one alone may take on another shape, and leave to others what that cannot say.
-    fn reconsiders(&mut self) -> bool {
-        let Some(Promised { pieces, named }) = self.promised.take() else { return false };
-        let came = |name: &&Named| self.named.iter().any(|other| other.name == name.name);
-        if named.iter().all(|name| came(&name)) {
-            return false;
-        }
-        let most = self.current.cost() - RIVAL_NATS;
-        let fitted = fit_below(self.data, &self.baseline, pieces, self.noise, most);
-        let is_better = fitted.cost() < most;
-        if is_better {
-            // Neither explains more than both.
-            let gain = (self.baseline.counted() - fitted.counted()).max(0.0);
-            self.named = named;
-            self.named.iter_mut().for_each(|named| named.score.0 = named.score.0.min(gain));
-            self.current = fitted;
+    fn reconsiders(&mut self, pass: &Pass, candidates: &[Candidate]) -> bool {
+        let Some(promised) = self.promised.take() else { return false };
+        let came = (&self.current, &self.named[..]);
+        let better = || promised.better_than(self.data, self.noise, &self.baseline, came);
+        let is_hopeless = promised.is_hopeless(&self.current.pieces, &|name| pass.excess(name, candidates));
+        let better = if is_hopeless { None } else { better() };
+        let is_better = better.is_some();
+        if let Some((fit, named)) = better {
+            (self.current, self.named) = (fit, named);
         }
         is_better
     }

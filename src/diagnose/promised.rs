@@ -1,0 +1,95 @@
+//! Two effects that tangents promise together, of which the strongest was taken first.
+
+use super::data::Data;
+use super::fit::{Fit, HOPE, fit_below};
+use super::noise::Noise;
+use super::pass::RIVAL_NATS;
+use super::pieces::Piece;
+use super::search::Named;
+
+/// Both, as they were promised.
+#[derive(Debug, Clone)]
+pub struct Promised {
+    /// Their pieces.
+    pub pieces: Vec<Piece>,
+    /// Their names.
+    pub named: Vec<Named>,
+}
+
+impl Promised {
+    /// Whether what `came` is one of the two as it was promised, without a shape that it could have changed, and the other has been tried beside that, where
+    /// tangents are good, in vain: `excess`, by an effect's name, is what it would explain there besides chance, chi squared.
+    pub fn is_hopeless(&self, came: &[Piece], excess: &dyn Fn(&str) -> f64) -> bool {
+        let is_promised = |piece: &Piece| {
+            let is_the_same = |other: &Piece| {
+                other.effect.name == piece.effect.name
+                    && other.takes == piece.takes
+                    && other.free == piece.free
+            };
+            let has_shapes = piece.effect.parameters.iter().any(|parameter| parameter.is_shape());
+            !has_shapes && self.pieces.iter().any(is_the_same)
+        };
+        let numbers = |pieces: &[Piece]| pieces.iter().map(|piece| piece.free.len()).sum::<usize>() as f64;
+        let is_another = |named: &&Named| !came.iter().any(|piece| piece.effect.name == named.name);
+        let hoped: f64 = self.named.iter().filter(is_another).map(|named| excess(named.name)).sum();
+        let needed = 2.0 * RIVAL_NATS + numbers(&self.pieces) - numbers(came);
+        came.iter().all(is_promised) && HOPE * hoped < needed
+    }
+
+    /// Both together from the `baseline` on, where one of them did not come and they fit clearly better than what came, by the fit and its names.
+    pub fn better_than(
+        &self,
+        data: &Data,
+        noise: Noise,
+        baseline: &Fit,
+        (came, names): (&Fit, &[Named]),
+    ) -> Option<(Fit, Vec<Named>)> {
+        let is_there = |named: &Named| names.iter().any(|other| other.name == named.name);
+        if self.named.iter().all(is_there) {
+            return None;
+        }
+        let most = came.cost() - RIVAL_NATS;
+        let fitted = fit_below(data, baseline, self.pieces.clone(), noise, most);
+        (fitted.cost() < most).then(|| {
+            // Neither explains more than both.
+            let gain = (baseline.counted() - fitted.counted()).max(0.0);
+            let mut named = self.named.clone();
+            named.iter_mut().for_each(|named| named.score.0 = named.score.0.min(gain));
+            (fitted, named)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::effects;
+
+    fn piece(name: &str, free: &[usize]) -> Piece {
+        let effect = effects::named(name).unwrap();
+        Piece { effect, values: effect.off(), free: free.to_vec(), takes: vec![0, 1], finite: false }
+    }
+
+    #[test]
+    fn what_was_tried_beside_what_came_as_promised_is_not_tried_again() {
+        let [falloff, drift] = ["inverse_square_falloff", "illumination_drift"];
+        let named = |name| Named { name, ln_bayes: 9.0, score: (9.0, 1), rivals: Vec::new() };
+        let promised = Promised {
+            pieces: vec![piece(falloff, &[0]), piece(drift, &[0, 1, 2])],
+            named: [falloff, drift].map(named).to_vec(),
+        };
+        let is_hopeless = |came: &[Piece], of_falloff: f64, of_drift: f64| {
+            promised.is_hopeless(came, &|name| if name == drift { of_drift } else { of_falloff })
+        };
+        // By three numbers more, and three nats: three times what is promised must be 9.
+        let came = [piece(falloff, &[0])];
+        assert!(is_hopeless(&came, 1e9, 2.9) && !is_hopeless(&came, 1e9, 3.1));
+        // In some recordings only, in another way, or with a shape of which it may have taken another one.
+        let [came] = came;
+        assert!(!is_hopeless(&[Piece { takes: vec![0], ..came }], 0.0, 0.0));
+        assert!(!is_hopeless(&[piece("frame_gain", &[0])], 0.0, 0.0));
+        assert!(!is_hopeless(&[piece(drift, &[0, 1, 2])], 0.0, 0.0));
+        // Nothing came: both are still to be tried.
+        assert!(!is_hopeless(&[], 5.0, 5.0));
+    }
+}
