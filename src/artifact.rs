@@ -59,7 +59,10 @@ fn owned_folders(artifacts: &[Artifact]) -> Vec<&str> {
 }
 
 /// Every file below `folder`/`part`, as `part/…`. A link is a file of its own: what it points to is not ours.
-fn files_below(folder: &Path, part: &str) -> Result<Vec<String>> {
+///
+/// # Errors
+/// A folder that cannot be listed.
+pub fn files_below(folder: &Path, part: &str) -> Result<Vec<String>> {
     let path = folder.join(part);
     match path.symlink_metadata() {
         Err(_) => return Ok(Vec::new()),

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::Arc;
 use vuris::bench::{Course, Simulation, chain, injection, sensor};
 use vuris::challenge::{
-    Answer, Asserted, CaseKind, Estimate, HeldOut, Hidden, Label, Located, Outcome, Simpler, Truth, drawn,
-    judge, judge_names, opened, scored, sealed, summary, table, truths,
+    Answer, Asserted, CaseKind, Estimate, HeldOut, Hidden, Label, LabelFile, Located, Outcome, Simpler,
+    Truth, drawn, judge, judge_names, opened, scored, sealed, summary, table, truths,
 };
 use vuris::frames::Geometry;
 use vuris::physics::{Active, Pixels, effects};
@@ -445,12 +445,13 @@ fn a_seal_refuses_a_label_that_was_changed() {
     let mut second = label(&["image_lag"]);
     second.case = "002".to_owned();
     let labels = [label(&[]), second];
-    let (file, seals) = sealed(&labels, 7).unwrap();
+    let cases = labels.clone().map(|label| (label, String::new()));
+    let (file, seals) = sealed(&cases, 7).unwrap();
     assert_eq!(opened("labels.json", &file, &seals).unwrap(), labels);
     // Also from the files' text, and other seeds seal otherwise.
     let text = serde_json::to_string_pretty(&file).unwrap();
     assert_eq!(opened("labels.json", &serde_json::from_str(&text).unwrap(), &seals).unwrap(), labels);
-    assert_ne!(sealed(&labels, 8).unwrap().1.cases[0].sha256, seals.cases[0].sha256);
+    assert_ne!(sealed(&cases, 8).unwrap().1.cases[0].sha256, seals.cases[0].sha256);
     for (from, to) in [("image_lag", "frame_gain"), ("\"rho\": 20.0", "\"rho\": 21.0")] {
         let changed = text.replace(from, to);
         assert_ne!(changed, text);
@@ -461,11 +462,15 @@ fn a_seal_refuses_a_label_that_was_changed() {
     salted.cases[1].salt = file.cases[0].salt.clone();
     let mut fewer = file.clone();
     fewer.cases.pop();
+    let of_another_seed = LabelFile { seed: 8, ..file.clone() };
     let mut swapped = file;
     swapped.cases.swap(0, 1);
-    for (file, what) in
-        [(salted, "case 002: the label does not fit"), (fewer, "1 labels for 2 seals"), (swapped, "case 001")]
-    {
+    for (file, what) in [
+        (salted, "case 002: the label does not fit"),
+        (fewer, "1 labels for 2 seals"),
+        (swapped, "case 001"),
+        (of_another_seed, "case 001: the salt is not that of seed = 8"),
+    ] {
         let refusal = opened("labels.json", &file, &seals).unwrap_err().to_string();
         assert!(refusal.contains(what), "{refusal}");
     }
@@ -551,11 +556,41 @@ fn a_small_challenge_is_made_answered_and_scored() {
     fs::write(home.path().join("forged.json"), labels.replacen("\"rho\": ", "\"rho\": 1", 1)).unwrap();
     let refused = vuris(&["score", "one/c", "--labels", "forged.json"], home.path()).failure();
     assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("does not fit its seal"));
-    let inside = vuris(
-        &["make", "--cases", "1", "--seed", "1", "--out", "new", "--labels", "new/l.json"],
-        home.path(),
-    );
-    assert!(String::from_utf8_lossy(&inside.failure().get_output().stderr).contains("own folder"));
+    let says = |arguments: &[&str], what: &str| {
+        let refused = vuris(arguments, home.path()).failure();
+        let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(text.contains(what) && text.contains("expected: ") && text.contains("way out: "), "{text}");
+    };
+    let absolute = home.path().join("new/l.json");
+    for (out, labels) in [
+        ("new", "new/l.json"),
+        ("./new", "new/l.json"),
+        ("new", "./new/l.json"),
+        ("new", "one/../new/l.json"),
+        ("new", absolute.to_str().unwrap()),
+    ] {
+        let make = ["make", "--tiny", "--cases", "1", "--seed", "1", "--out", out, "--labels", labels];
+        says(&make, "own folder");
+    }
+    // Neither labels nor campaigns are lost to a score, nor is one taken for another.
+    let score = |json: &str, what: &str| {
+        says(&["score", "one/c", "--labels", "one/c-labels.json", "--json", json], what);
+    };
+    score("./one/c-labels.json", "is the file of labels");
+    score("one/c/score.json", "own folder");
+    assert_eq!(fs::read_to_string(home.path().join("one/c-labels.json")).unwrap(), labels);
+    says(&["score", "one", "--labels", "one/c-labels.json"], "seals.json");
+    says(&["score", "one/c", "--labels", "one/c/seals.json"], "seals.json");
+    fs::write(home.path().join("one/c/campaigns/.DS_Store"), "").unwrap();
+    vuris(&["answer", "one/c"], home.path()).success();
+    let campaign = |name: &str| home.path().join("one/c/campaigns").join(name);
+    fs::rename(campaign("001"), campaign("other")).unwrap();
+    score("score.json", "001: the campaign is not there");
+    fs::rename(campaign("002"), campaign("001")).unwrap();
+    fs::rename(campaign("other"), campaign("002")).unwrap();
+    score("score.json", "the campaign does not fit its seal");
+    fs::remove_dir_all(home.path().join("one/c/answers")).unwrap();
+    says(&["answer", "one/c"], "the campaign does not fit its seal");
 }
 
 /// Kinds have their shares in an order of chance; everything follows from the seed.

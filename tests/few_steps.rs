@@ -4,7 +4,7 @@ mod diagnosed;
 
 use diagnosed::{names, verdict, vuris};
 use serde_json::Value;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 use vuris::physics::Draws;
 
@@ -81,4 +81,25 @@ fn three_steps_test_nothing() {
     let (good, text) = vuris(&["diagnose", out.to_str().unwrap()]);
     assert!(!good && text.contains("no pixel has more than 3 samples"), "{text}");
     assert!(text.contains("record at least four steps a set"), "{text}");
+}
+
+/// Phases of which there are fewer than three do not tell amplitude, phase and offset, however many frames there are; three do, and so do steps that are a little apart.
+#[test]
+fn steps_at_two_phases_test_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = stack(folder.path(), 12, 5, |light| light);
+    let recording = out.join("recording.toml");
+    let text = std::fs::read_to_string(&recording).unwrap();
+    let line = text.lines().find(|line| line.starts_with("phase_step_rad")).unwrap();
+    let with = |step_rad: f64| {
+        std::fs::write(&recording, text.replace(line, &format!("phase_step_rad = {step_rad}"))).unwrap();
+        vuris(&["diagnose", out.to_str().unwrap()])
+    };
+    for (step_rad, says) in
+        [(0.0, "at 0.000\u{b0}"), (TAU, "at 0.000\u{b0}"), (PI, "at 0.000\u{b0} and 180.000\u{b0}")]
+    {
+        let (good, said) = with(step_rad);
+        assert!(!good && said.contains(says) && said.contains("way out: "), "{step_rad}: {said}");
+    }
+    assert!(with(TAU / 3.0).0 && with(0.02).0);
 }

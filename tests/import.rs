@@ -406,6 +406,10 @@ fn files_that_do_not_fit_are_refused_by_name() {
     let five = [&four[..], &["f0.bmp"]].concat();
     home.refused("stack", &five, &["5 frames in 5 files, from f0.bmp to f3.png", "leave out 1", "add 3"]);
     home.refused("stack", &[&four[..], &["f2.png"]].concat(), &["f2.png: is named twice"]);
+    for other in ["./f2.png", home.path("f2.png").to_str().unwrap()] {
+        home.refused("stack", &[&four[..], &[other]].concat(), &["f2.png: is named twice"]);
+        home.refused("stack", &[&four[..], &[other, "--as-given"]].concat(), &["f2.png: is named twice"]);
+    }
     home.refused("stack", &["."], &[".: is a folder", "name the files"]);
     home.refused("stack", &[&four[..], &["--recordings", "3"]].concat(), &["--recordings: 3 of 1 sets"]);
 
@@ -427,6 +431,24 @@ fn files_that_do_not_fit_are_refused_by_name() {
     encoder.set_depth(png::BitDepth::Four);
     encoder.write_header().unwrap().write_image_data(&[0x12; 9]).unwrap();
     home.refused("stack", &with("four.png"), &["four.png: has 4 bits a sample"]);
+    let bytes = fs::read(home.path("f3.bmp")).unwrap();
+    fs::write(home.path("narrow.bmp"), [&bytes[..28], &[16], &bytes[29..]].concat()).unwrap();
+    home.refused(
+        "stack",
+        &with("narrow.bmp"),
+        &["narrow.bmp: has 16 bits a pixel", "expected: 8 bits a sample"],
+    );
+    // A decoder would turn white at 0 round, and numbers with a sign are no codes.
+    let mut encoder = TiffEncoder::new(File::create(home.path("signed.tif")).unwrap()).unwrap();
+    encoder.write_image::<colortype::GrayI16>(5, 3, &[1; 15]).unwrap();
+    home.refused("stack", &with("signed.tif"), &["signed.tif: page 0 has signed numbers (SampleFormat 2)"]);
+    let mut bytes = fs::read(home.path("f3.tif")).unwrap();
+    // The entry of tag 262 (PhotometricInterpretation): a short, one of it.
+    let entry = bytes.windows(8).position(|part| part == [6, 1, 3, 0, 1, 0, 0, 0]).unwrap();
+    assert_eq!(bytes[entry + 8], 1);
+    bytes[entry + 8] = 0;
+    fs::write(home.path("white.tif"), bytes).unwrap();
+    home.refused("stack", &with("white.tif"), &["white.tif: page 0 has white at 0", "expected: black at 0"]);
     // Broken bytes anywhere: read or refused, never a panic (which would end with 101).
     for file in ["f3.png", "f3.bmp", "f3.tif"] {
         let bytes = fs::read(home.path(file)).unwrap();
@@ -557,7 +579,7 @@ fn the_help_shows_an_example_and_the_example_works() {
         let mut files = Vec::new();
         if kind == "stack" {
             fs::create_dir(home.path("scene")).unwrap();
-            files.extend((0..36).map(|frame| format!("scene/f{frame}.bmp")));
+            files.extend((0..24).map(|frame| format!("scene/f{frame}.bmp")));
             files.iter().enumerate().for_each(|(at, file)| picture8(at % 12).save(home.path(file)).unwrap());
         }
         fs::write(home.path("run.bin"), vec![1; 512 + 8 * 240 * 320 * 2]).unwrap();
@@ -565,7 +587,7 @@ fn the_help_shows_an_example_and_the_example_works() {
         at.into_iter().for_each(|at| drop(arguments.splice(at..=at, files.iter().map(String::as_str))));
         home.vuris(&arguments).unwrap_or_else(|error| panic!("{arguments:?}: {error}"));
     }
-    assert!(home.path("scene-01/recording-3/frames.npy").exists() && home.path("run/frames.npy").exists());
+    assert!(home.path("scene-01/frames.npy").exists() && home.path("run/frames.npy").exists());
 }
 
 // ---------------------------------------------------------------- another laboratory's pictures

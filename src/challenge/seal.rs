@@ -1,4 +1,4 @@
-//! Seals: a salted hash of each label, which lies with the campaigns, while the labels lie elsewhere.
+//! Seals: a salted hash of each label, and one of the campaign that it labels, which lie with the campaigns, while the labels lie elsewhere.
 
 use super::label::Label;
 use crate::problem::{Problem, Result};
@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use std::hash::{BuildHasher, Hasher};
 
 const LABELS: &str = "vuris-challenge-labels/1";
-const SEALS: &str = "vuris-challenge-seals/1";
+const SEALS: &str = "vuris-challenge-seals/2";
 
 /// A label with its salt.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,12 +36,14 @@ pub struct Seal {
     pub case: String,
     /// SHA-256 of salt, line feed and label, 64 hexadecimal digits.
     pub sha256: String,
+    /// The [fingerprint](super::fingerprint) of the campaign's files.
+    pub campaign_sha256: String,
 }
 
 /// The file of seals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SealFile {
-    /// `vuris-challenge-seals/1`.
+    /// `vuris-challenge-seals/2`.
     pub format: String,
     /// A seal a case.
     pub cases: Vec<Seal>,
@@ -63,7 +65,7 @@ fn salt(seed: u64, case: &str) -> String {
     hexadecimal(&hash.finalize()[..16])
 }
 
-fn hexadecimal(bytes: &[u8]) -> String {
+pub(super) fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
@@ -75,42 +77,60 @@ fn seal(sealed: &SealedLabel) -> String {
     hexadecimal(&hash.finalize())
 }
 
-/// The two files for `labels`, whose salts follow from `seed`.
+/// The two files for labels, each with the fingerprint of its campaign; salts follow from `seed`.
 ///
 /// # Errors
 /// A label that is no JSON (a number that is not finite).
-pub fn sealed(labels: &[Label], seed: u64) -> Result<(LabelFile, SealFile)> {
-    let mut cases = Vec::new();
-    for label in labels {
+pub fn sealed(cases: &[(Label, String)], seed: u64) -> Result<(LabelFile, SealFile)> {
+    let (mut labels, mut seals) = (Vec::new(), Vec::new());
+    for (label, campaign_sha256) in cases {
         let value = serde_json::to_value(label).map_err(|error| Problem::at("the label", error))?;
-        cases.push(SealedLabel { salt: salt(seed, &label.case), label: value });
+        let sealed = SealedLabel { salt: salt(seed, &label.case), label: value };
+        seals.push(Seal {
+            case: label.case.clone(),
+            sha256: seal(&sealed),
+            campaign_sha256: campaign_sha256.clone(),
+        });
+        labels.push(sealed);
     }
-    let seals = labels
-        .iter()
-        .zip(&cases)
-        .map(|(label, sealed)| Seal { case: label.case.clone(), sha256: seal(sealed) })
-        .collect();
-    let labels = LabelFile { format: LABELS.to_owned(), seed, cases };
+    let labels = LabelFile { format: LABELS.to_owned(), seed, cases: labels };
     Ok((labels, SealFile { format: SEALS.to_owned(), cases: seals }))
 }
 
-/// The labels of `file`, each of which must fit its seal in `seals`. `file` is called `name` in refusals.
+impl SealFile {
+    /// Refuses seals of another format; the file is called `name`.
+    ///
+    /// # Errors
+    /// Another format.
+    pub fn checked(self, name: &str) -> Result<Self> {
+        format_is(name, &self.format, SEALS)?;
+        Ok(self)
+    }
+}
+
+fn format_is(name: &str, format: &str, expected: &str) -> Result<()> {
+    if format == expected {
+        return Ok(());
+    }
+    Err(Problem::at(name, format_args!("format = \"{format}\""))
+        .expected(expected)
+        .remedy("make the challenge anew, or use the program that made it"))
+}
+
+/// The labels of `file`, each of which must fit its seal in `seals`, and whose salts must follow from the file's seed. `file` is called `name` in refusals.
 ///
 /// # Errors
-/// Another format; a label that does not fit its seal, has none, or is missing; a label that is none.
+/// Another format; a label that does not fit its seal, has none, or is missing; a label that is none; a seed that is not theirs.
 pub fn opened(name: &str, file: &LabelFile, seals: &SealFile) -> Result<Vec<Label>> {
-    for (format, expected) in [(&file.format, LABELS), (&seals.format, SEALS)] {
-        if format != expected {
-            return Err(Problem::at(name, format_args!("format = \"{format}\"")).expected(expected));
-        }
-    }
+    format_is(name, &file.format, LABELS)?;
+    let remedy = "take the labels as they were written with these campaigns";
     if file.cases.len() != seals.cases.len() {
         return Err(Problem::at(
             name,
             format_args!("{} labels for {} seals", file.cases.len(), seals.cases.len()),
         )
         .expected("a label for each seal")
-        .remedy("take the labels that were written with these campaigns"));
+        .remedy(remedy));
     }
     let mut labels = Vec::new();
     for (sealed, known) in file.cases.iter().zip(&seals.cases) {
@@ -118,12 +138,19 @@ pub fn opened(name: &str, file: &LabelFile, seals: &SealFile) -> Result<Vec<Labe
         if seal(sealed) != known.sha256 {
             return Err(Problem::at(place, "the label does not fit its seal")
                 .expected(format_args!("SHA-256 of salt and label {}", known.sha256))
-                .remedy("take the labels as they were written with these campaigns"));
+                .remedy(remedy));
+        }
+        if sealed.salt != salt(file.seed, &known.case) {
+            return Err(Problem::at(place, format_args!("the salt is not that of seed = {}", file.seed))
+                .expected("the seed that the challenge was made of")
+                .remedy(remedy));
         }
         let label: Label = serde_json::from_value(sealed.label.clone())
-            .map_err(|error| Problem::at(&place, error).expected("a label"))?;
+            .map_err(|error| Problem::at(&place, error).expected("a label").remedy(remedy))?;
         if label.case != known.case {
-            return Err(Problem::at(place, format_args!("the label is that of case {}", label.case)));
+            return Err(Problem::at(place, format_args!("the label is that of case {}", label.case))
+                .expected("labels in the order of the seals")
+                .remedy(remedy));
         }
         labels.push(label);
     }

@@ -3,7 +3,10 @@
 use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
-use crate::challenge::{Answer, LabelFile, Simpler, drawn, entropy, opened, scored, sealed, summary, table};
+use crate::challenge::{
+    Answer, LabelFile, Seal, SealFile, Simpler, drawn, entropy, fingerprint, opened, scored, sealed, summary,
+    table,
+};
 use crate::problem::{Problem, Result};
 use crate::recording::{Staging, write_campaign};
 use clap::{Args, Subcommand};
@@ -11,7 +14,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 /// Campaigns with concealed effects from a second, independent generator: make them, answer them, score the answers
@@ -105,7 +108,7 @@ impl Make {
                 return Err(Problem::in_file(path, "is there already").expected("a new challenge"));
             }
         }
-        if labels_file.starts_with(out) {
+        if at(&labels_file).starts_with(at(out)) {
             return Err(Problem::in_file(&labels_file, "lies in the challenge's own folder")
                 .expected("a file that whoever answers does not have")
                 .remedy(format_args!("take a place outside of {}", out.display())));
@@ -120,16 +123,18 @@ impl Make {
                 .map(|case| {
                     let (label, recordings) = case.made()?;
                     let camera = recordings.first().and_then(|recording| recording.camera.clone());
-                    write_campaign(&recordings, camera.as_ref(), &new.join(CAMPAIGNS).join(case.name()))?;
+                    let campaigns = new.join(CAMPAIGNS);
+                    write_campaign(&recordings, camera.as_ref(), &campaigns.join(case.name()))?;
+                    let fingerprint = fingerprint(&campaigns, &case.name())?;
                     done("campaigns");
-                    Ok(label)
+                    Ok((label, fingerprint))
                 })
                 .collect::<Result<Vec<_>>>()
         })?;
         let (labels, seals) = sealed(&labels, seed)?;
         staging.write_text(SEALS, &json_text(&seals)?)?;
         write_file(&labels_file, &json_text(&labels)?)?;
-        staging.publish()?;
+        staging.publish_new()?;
         say!("written: {}, {} with {SEALS}", out.display(), counted(cases.len(), "campaign"));
         say!("written: {}", labels_file.display());
         Ok(ExitCode::SUCCESS)
@@ -146,35 +151,59 @@ fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T> {
     serde_json::from_str(&text).map_err(|error| Problem::in_file(path, error))
 }
 
-/// The campaigns of the challenge in `folder`, by name.
-fn campaigns(folder: &Path) -> Result<Vec<String>> {
-    let place = folder.join(CAMPAIGNS);
-    let cannot = |error: std::io::Error| {
-        Problem::io(&place, "list", &error).expected("a folder that `vuris challenge make` has written")
-    };
-    let mut names = Vec::new();
-    for entry in fs::read_dir(&place).map_err(cannot)? {
-        names.push(entry.map_err(cannot)?.file_name().to_string_lossy().into_owned());
+/// The seals of the challenge in `folder`, one a campaign.
+fn seals(folder: &Path) -> Result<SealFile> {
+    let file = folder.join(SEALS);
+    let seals: SealFile = read_json(&file).map_err(|problem| {
+        problem
+            .expected("the seals that `vuris challenge make` has written beside the campaigns")
+            .remedy("give the folder that it was told as --out")
+    })?;
+    seals.checked(&file.display().to_string())
+}
+
+/// Refuses a campaign in `folder` that is not the one that was sealed.
+fn is_sealed(folder: &Path, seal: &Seal) -> Result<()> {
+    let campaigns = folder.join(CAMPAIGNS);
+    if fingerprint(&campaigns, &seal.case)? == seal.campaign_sha256 {
+        return Ok(());
     }
-    names.sort();
-    Ok(names)
+    let what = if campaigns.join(&seal.case).is_dir() { "does not fit its seal" } else { "is not there" };
+    Err(Problem::in_file(&campaigns.join(&seal.case), format_args!("the campaign {what}"))
+        .expected(format_args!("files whose fingerprint is {}", seal.campaign_sha256))
+        .remedy("take the campaigns as `vuris challenge make` wrote them"))
+}
+
+/// The place that `path` means: from the root on, links followed as far as there is something, without `.` and `..`.
+fn at(path: &Path) -> PathBuf {
+    let mut place = PathBuf::new();
+    for part in std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).components() {
+        match part {
+            Component::ParentDir => _ = place.pop(),
+            part => place.push(part),
+        }
+        place = place.canonicalize().unwrap_or(place);
+    }
+    place
 }
 
 impl Answers {
     fn run(self) -> Result<ExitCode> {
-        let names = campaigns(&self.folder)?;
+        let seals = seals(&self.folder)?.cases;
         let program = std::env::current_exe()
             .map_err(|error| Problem::at("this program", error).expected("a path to it"))?;
-        let open: Vec<&String> = names
+        let open: Vec<&Seal> = seals
             .iter()
-            .filter(|name| {
-                !is_answered::<Answer>(&answer_file(&self.folder, name), &program)
-                    || !is_answered::<Simpler>(&simpler_file(&self.folder, name), &program)
+            .filter(|Seal { case, .. }| {
+                !is_answered::<Answer>(&answer_file(&self.folder, case), &program)
+                    || !is_answered::<Simpler>(&simpler_file(&self.folder, case), &program)
             })
             .collect();
         let failures: Vec<Problem> = progress::steps(open.len(), |done| {
-            let answer = |name: &&String| {
-                let texts = diagnosed(&program, &self.folder.join(CAMPAIGNS).join(name));
+            let answer = |seal: &&Seal| {
+                let name = &seal.case;
+                let texts = is_sealed(&self.folder, seal)
+                    .and_then(|()| diagnosed(&program, &self.folder.join(CAMPAIGNS).join(name)));
                 let written = texts.and_then(|[answer, simpler]| {
                     write_file(&simpler_file(&self.folder, name), &simpler)?;
                     write_file(&answer_file(&self.folder, name), &answer)
@@ -186,10 +215,10 @@ impl Answers {
         });
         if let Some(first) = failures.first() {
             let others =
-                format!("{} of {} were not answered; the first: {first}", failures.len(), names.len());
+                format!("{} of {} were not answered; the first: {first}", failures.len(), seals.len());
             return Err(Problem::in_file(&self.folder, others));
         }
-        say!("{} answered, {} of them now", counted(names.len(), "campaign"), open.len());
+        say!("{} answered, {} of them now", counted(seals.len(), "campaign"), open.len());
         Ok(ExitCode::SUCCESS)
     }
 }
@@ -254,9 +283,25 @@ fn copy_folder(from: &Path, to: &Path) -> std::io::Result<()> {
 
 impl Score {
     fn run(self) -> Result<ExitCode> {
-        let sealed: LabelFile = read_json(&self.labels)?;
-        let seals = read_json(&self.folder.join(SEALS))?;
+        if let Some(json) = &self.json {
+            let is_of_challenge = at(json).starts_with(at(&self.folder)) || at(json) == at(&self.labels);
+            if is_of_challenge {
+                return Err(Problem::in_file(
+                    json,
+                    "is the file of labels, or lies in the challenge's own folder",
+                )
+                .expected("another file for the score")
+                .remedy("choose another --json"));
+            }
+        }
+        let seals = seals(&self.folder)?;
+        let sealed: LabelFile = read_json(&self.labels).map_err(|problem| {
+            problem
+                .expected("the file of labels that `vuris challenge make` has written")
+                .remedy("give the file that it named; by itself it is called DIR-labels.json")
+        })?;
         let labels = opened(&self.labels.display().to_string(), &sealed, &seals)?;
+        seals.cases.par_iter().try_for_each(|seal| is_sealed(&self.folder, seal))?;
         let mut cases = Vec::new();
         for label in labels {
             let missing = |problem: Problem| {
@@ -272,7 +317,11 @@ impl Score {
         if let Some(file) = &self.json {
             write_file(file, &json_text(&summary(&scored))?)?;
         }
-        say!("{} of seed {}, all labels fit their seals", counted(scored.cases.len(), "case"), sealed.seed);
+        say!(
+            "{} of seed {}, all labels and campaigns fit their seals",
+            counted(scored.cases.len(), "case"),
+            sealed.seed
+        );
         say!("{}", table(&scored).trim_end());
         Ok(ExitCode::SUCCESS)
     }

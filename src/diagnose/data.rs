@@ -8,6 +8,7 @@ use crate::physics::{Active, Effect, Moment, effects};
 use crate::problem::{Problem, Result};
 use crate::recording::{Camera, Recording};
 use serde::Serialize;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// A recording's frames.
@@ -65,6 +66,9 @@ const CLIPPED_DN: u32 = 2;
 /// Numbers that each pixel has at least: amplitude, phase, and light that does not follow the modulation.
 const LEAST_OWN: usize = 3;
 
+/// Phases that are as near are one.
+const SAME_PHASE_RAD: f64 = 1e-6;
+
 /// So many signals say from where to where signals go.
 const SPANNING: usize = 100_000;
 
@@ -116,7 +120,41 @@ impl Data {
             .expected("more samples than numbers: whatever was recorded agrees with the simulation, and nothing can be tested")
             .remedy("record at least four steps a set, or sets at several distances"));
         }
-        Ok(data)
+        match data.phases()[..] {
+            [] => Ok(data),
+            ref phases if phases.len() >= LEAST_OWN || data.moves() => Ok(data),
+            ref phases => {
+                let degrees: Vec<String> =
+                    phases.iter().map(|phase| format!("{:.3}\u{b0}", phase.to_degrees())).collect();
+                Err(Problem::in_file(&first.folder, format_args!("all phase steps are at {}", degrees.join(" and ")))
+                    .expected("steps and offsets at three phases of the turn or more: fewer do not tell amplitude, phase and offset")
+                    .remedy("correct phase_step_rad, or phase_steps_rad, of recording.toml (radians)"))
+            }
+        }
+    }
+
+    /// The phases (steps and offsets, rad, from 0 to a turn) at which the scene is seen in the camera's light.
+    fn phases(&self) -> Vec<f64> {
+        let mut phases: Vec<f64> =
+            self.lit().map(|moment| (moment.step_rad + moment.offset_rad).rem_euclid(TAU)).collect();
+        phases.sort_by(f64::total_cmp);
+        phases.dedup_by(|later, earlier| *later - *earlier < SAME_PHASE_RAD);
+        // The last one may be the first, a turn later.
+        if phases.len() > 1 && phases[0] + TAU - phases[phases.len() - 1] < SAME_PHASE_RAD {
+            phases.pop();
+        }
+        phases
+    }
+
+    /// The frames in the camera's light.
+    fn lit(&self) -> impl Iterator<Item = &Moment> {
+        self.takes.iter().flat_map(|take| &take.moments).filter(|moment| moment.lit)
+    }
+
+    /// Whether the target is not always at one distance.
+    fn moves(&self) -> bool {
+        let places_m = || self.lit().map(Moment::commanded_m);
+        places_m().fold(0.0, f64::max) > places_m().fold(f64::INFINITY, f64::min)
     }
 
     /// How many samples of each pixel count.
@@ -148,13 +186,9 @@ impl Data {
 
     /// How many numbers of its own the frames could tell of each pixel.
     fn own_numbers(&self) -> Vec<usize> {
-        let lit = || self.takes.iter().flat_map(|take| &take.moments).filter(|moment| moment.lit);
         // At one distance constant and ambient light are one number.
-        let places_m = || lit().map(Moment::commanded_m);
-        let (nearest_m, farthest_m) =
-            (places_m().fold(f64::INFINITY, f64::min), places_m().fold(0.0, f64::max));
-        let moves = farthest_m > nearest_m;
-        let own = |pixel: usize| match lit().next() {
+        let moves = self.moves();
+        let own = |pixel: usize| match self.lit().next() {
             None => 1,
             Some(_) => LEAST_OWN + usize::from(self.has_dark || self.target[pixel] && moves),
         };

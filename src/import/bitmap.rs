@@ -22,6 +22,11 @@ pub(super) fn read(file: &Path) -> Result<Picture> {
             .expected("8 or 16 bits")
             .remedy("save it with 8 bits a sample"));
     }
+    if start.starts_with(b"BM") && start.get(28) == Some(&16) {
+        return Err(Problem::in_file(file, "has 16 bits a pixel, of which a colour has 5 or 6")
+            .expected("8 bits a sample: narrower ones would be stretched")
+            .remedy("save it with 8 bits of grey, or 24 of colour"));
+    }
     bytes.rewind().map_err(io)?;
     let broken = |error: &dyn std::fmt::Display| {
         Problem::in_file(file, format_args!("cannot be decoded: {error}"))

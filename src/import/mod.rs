@@ -16,7 +16,7 @@ mod tagged;
 
 pub use codes::{Levels, MOST_ADC_BITS};
 pub use cut::{Taking, recordings};
-pub use order::natural_order;
+pub use order::{each_file_once, natural_order};
 pub use pictures::{Channel, read_pictures};
 pub use raw::{ByteOrder, Number, RawLayout, read_raw};
 pub use stack::{Source, Stack};

@@ -48,6 +48,16 @@ impl Staging {
             .map_err(|error| Problem::io(&self.target.join(name), "write", &error))
     }
 
+    /// Puts the folder in its place, where nothing must have come to stand meanwhile.
+    pub fn publish_new(self) -> Result<()> {
+        if self.target.symlink_metadata().is_ok() {
+            return Err(Problem::in_file(&self.target, "has come to be there meanwhile")
+                .expected("nothing at the place of a new folder")
+                .remedy("choose another place for the output"));
+        }
+        self.publish()
+    }
+
     /// Puts the folder in its place; one that stands there is replaced, and restored should that fail.
     pub fn publish(self) -> Result<()> {
         let cannot = |error: &std::io::Error| Problem::io(&self.target, "write", error);

@@ -6,11 +6,13 @@ mod taking;
 use super::print::{counted, say};
 use crate::frames::Geometry;
 use crate::import::{
-    ByteOrder, Channel, Number, RawLayout, Stack, natural_order, read_pictures, read_raw, recordings,
+    ByteOrder, Channel, Number, RawLayout, Stack, Taking, each_file_once, natural_order, read_pictures,
+    read_raw, recordings,
 };
 use crate::problem::{Problem, Result};
 use crate::recording::{write_campaign, write_recording, write_recording_with_camera};
 use clap::{Args, Subcommand, ValueEnum};
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use taking::Frames;
@@ -28,8 +30,11 @@ enum Command {
     Raw(Box<Dumps>),
 }
 
-const STACK_EXAMPLE: &str = "Example: 36 pictures of 12 steps, taken as three recordings of one set each
-  vuris import stack scene/*.bmp --steps 12 --step-deg 30 --recordings 3 \\
+const STACK_EXAMPLE: &str = "A campaign (--recordings) is of one scene at one modulation frequency, whose pixels keep their phases: fringes of
+several periods are imported each by itself.
+
+Example: 24 pictures of 12 steps, two sets of a scene that stands still
+  vuris import stack scene/*.bmp --steps 12 --step-deg 30 \\
     --frequency-hz 30e6 --frame-period-s 0.025 --out scene-01";
 
 /// Pictures (BMP, PNG, TIFF of one page or many) or arrays (.npy, [frame, row, column]): frames in the natural order of the
@@ -158,9 +163,10 @@ fn import(frames: &Frames, read: impl FnOnce(&[PathBuf], &mut Stack) -> Result<(
     }
     let known = frames.camera.read()?;
     let taking = frames.taking()?;
+    each_file_once(&frames.files)?;
     let files = match frames.as_given {
         true => frames.files.clone(),
-        false => natural_order(frames.files.clone())?,
+        false => natural_order(frames.files.clone()),
     };
     let mut stack = Stack::new(frames.levels(&known)?);
     read(&files, &mut stack)?;
@@ -189,6 +195,10 @@ fn import(frames: &Frames, read: impl FnOnce(&[PathBuf], &mut Stack) -> Result<(
             codes.len(),
         );
     }
+    let span_deg = span_rad(&taking).to_degrees();
+    if span_deg < LEAST_SPAN_DEG {
+        say!("all phase steps and offsets are within {span_deg:.1} degrees: is --step-deg in degrees?");
+    }
     let mut unknown = Vec::new();
     if camera.is_none() {
         unknown.push("camera.toml (--camera; or --adc-bits, --pedestal-dn and what these ask for)");
@@ -200,6 +210,18 @@ fn import(frames: &Frames, read: impl FnOnce(&[PathBuf], &mut Stack) -> Result<(
         say!("not known, and left out: {}", unknown.join(", "));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Phases that are as near are a slip of the unit, as a rule.
+const LEAST_SPAN_DEG: f64 = 45.0;
+
+/// From the least to the greatest phase of the frames, rad; a turn at most.
+fn span_rad(taking: &Taking) -> f64 {
+    let span = |of: &[f64]| {
+        of.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+            - of.iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    (span(&taking.steps_rad) + span(&taking.phase_offsets_rad)).min(TAU)
 }
 
 /// What has been read, and in which order.

@@ -114,8 +114,14 @@ impl Frames {
                 ));
         }
         let frame_times_s = self.frame_times.as_deref().map(times_s).transpose()?;
-        let frame_period_s =
-            self.frame_period_s.or_else(|| mean_period_s(frame_times_s.as_deref()?, self.steps));
+        let of_times = |times_s: &[f64]| mean_period_s(times_s, self.steps);
+        let mean_s = frame_times_s.as_deref().map(of_times);
+        if let (Some(None), None, Some(file)) = (mean_s, self.frame_period_s, &self.frame_times) {
+            return Err(Problem::in_file(file, "the frames of a set begin no later than each other")
+                .expected("times that grow from frame to frame")
+                .remedy("correct them, or give --frame-period-s, too"));
+        }
+        let frame_period_s = self.frame_period_s.or(mean_s.flatten());
         let frame_period_s = frame_period_s.ok_or_else(|| {
             Problem::at("--frame-period-s", "is missing")
                 .expected("s from the start of a frame to the start of the next: a recording needs it, and frames do not tell it")
@@ -149,15 +155,17 @@ impl Frames {
         if !(1..=65_536).contains(&self.steps) {
             return Err(Problem::at("--steps", self.steps).expected("a whole number from 1 to 65536"));
         }
+        const MOST_DEG: RangeInclusive<f64> = -360.0 * 65_536.0..=360.0 * 65_536.0;
         match &self.step_deg[..] {
             &[step_deg] => {
                 in_range("--step-deg", step_deg, &(-360.0..=360.0))?;
                 let step_rad = step_deg.to_radians();
                 Ok((0..self.steps).map(|n| n as f64 * step_rad).collect())
             }
-            of_each if of_each.len() == self.steps => {
-                Ok(of_each.iter().map(|deg| deg.to_radians()).collect())
-            }
+            of_each if of_each.len() == self.steps => of_each
+                .iter()
+                .map(|&deg| in_range("--step-deg", deg, &MOST_DEG).map(|()| deg.to_radians()))
+                .collect(),
             of_each => Err(Problem::at("--step-deg", format_args!("{} values", of_each.len())).expected(
                 format_args!(
                     "one, the step from a frame to the next, or {}: one for each of --steps",
