@@ -64,3 +64,16 @@ fn what_is_a_thousandth_of_the_falloff_is_named_beside_it() {
         [0, 1].map(|number: usize| verdict["effects"][number]["evidence"]["delta_chi2"].as_f64().unwrap());
     assert!(weak < 1e-3 * strong, "{strong} {weak}");
 }
+
+/// A drift that goes on nearly evenly has a time constant far from where its fit begins: what is asserted is where the fit ends, not where its first steps do.
+#[test]
+fn a_fit_that_is_asserted_is_gone_on_with_to_its_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let effect = ["--size", "8x6", "--seed", "3", "--effect", "ambient_drift:relative_a_second=0.005"];
+    let verdict = verdict(folder.path(), "four-sweep,four-rail,four-motion", &effect);
+    assert_eq!(names(&verdict), ["ambient_drift"], "{verdict:#}");
+    let number = |row: usize, key: &str| verdict["effects"][0]["parameters"][row][key].as_f64().unwrap();
+    let [rate, sigma, time_constant_s] = [number(0, "value"), number(0, "sigma"), number(1, "value")];
+    assert!((rate - 0.005).abs() < 4.0 * sigma, "{rate} +- {sigma}");
+    assert!(time_constant_s > 5e3, "{time_constant_s}");
+}

@@ -3,7 +3,6 @@
 
 mod case;
 mod draw;
-mod fingerprint;
 mod judge;
 mod label;
 mod limit;
@@ -17,7 +16,6 @@ mod truth;
 mod words;
 
 pub use case::{Case, CaseKind, drawn};
-pub use fingerprint::fingerprint;
 pub use judge::{Answer, Asserted, Estimate, HeldOut, Located, Outcome, judge, judge_names};
 pub use label::{Hidden, Label};
 pub use score::{Calibration, Judged, PROBABILITIES, Scored, scored};

@@ -36,7 +36,7 @@ pub struct Seal {
     pub case: String,
     /// SHA-256 of salt, line feed and label, 64 hexadecimal digits.
     pub sha256: String,
-    /// The [fingerprint](super::fingerprint) of the campaign's files.
+    /// The fingerprint of the campaign's files, 64 hexadecimal digits.
     pub campaign_sha256: String,
 }
 
@@ -65,7 +65,7 @@ fn salt(seed: u64, case: &str) -> String {
     hexadecimal(&hash.finalize()[..16])
 }
 
-pub(super) fn hexadecimal(bytes: &[u8]) -> String {
+fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

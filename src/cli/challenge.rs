@@ -1,11 +1,11 @@
 //! `vuris challenge`
 
+use super::fingerprint::fingerprint;
 use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
 use crate::challenge::{
-    Answer, LabelFile, Seal, SealFile, Simpler, drawn, entropy, fingerprint, opened, scored, sealed, summary,
-    table,
+    Answer, LabelFile, Seal, SealFile, Simpler, drawn, entropy, opened, scored, sealed, summary, table,
 };
 use crate::problem::{Problem, Result};
 use crate::recording::{Staging, write_campaign};

@@ -8,6 +8,7 @@ mod coverage;
 mod demo;
 mod diagnose;
 mod explain;
+mod fingerprint;
 mod generate;
 mod import;
 mod mutate;

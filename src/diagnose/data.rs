@@ -6,7 +6,7 @@ use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
 use crate::physics::{Active, Effect, Moment, effects};
 use crate::problem::{Problem, Result};
-use crate::recording::{Camera, Recording};
+use crate::recording::{Camera, Kind, Recording};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -95,6 +95,18 @@ impl Data {
             if recording.geometry() != geometry || camera.geometry != geometry {
                 return Err(Problem::in_file(&recording.folder, "has another number of pixels")
                     .expected(format_args!("{} x {}", geometry.width, geometry.height)));
+            }
+        }
+        for recording in recordings.iter().filter(|recording| recording.kind != Kind::Dark) {
+            if let Some(set) = recording.sets.iter().position(|row| row.position_m == Some(0.0)) {
+                return Err(Problem::in_file(
+                    &recording.folder.join("sets.csv"),
+                    format_args!("position_m = 0 in set {set}"),
+                )
+                .expected("a distance: light falls with its square")
+                .remedy(
+                    "correct the encoder's zero, or leave the cell empty in all sets where it is not known",
+                ));
             }
         }
         let sees_target = |pixel: usize| !assumed.still_scene && first.sees_target(pixel);

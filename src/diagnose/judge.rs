@@ -3,6 +3,7 @@
 use super::clusters::Level;
 use super::conclusion::{Case, Verdict};
 use super::data::Data;
+use super::finished::finished;
 use super::fit::{Fit, fit};
 use super::held_out::Predictor;
 use super::location::{LOCATED_NATS, Location};
@@ -219,7 +220,7 @@ fn asserted(data: &Data, found: &Found, named: &[Named], noise: Noise) -> Fit {
     } else if pieces.is_empty() {
         found.baseline.clone()
     } else {
-        fit(data, Some(&found.baseline), pieces, noise, &|_| true)
+        finished(data, fit(data, Some(&found.baseline), pieces, noise, &|_| true), noise)
     }
 }
 

@@ -9,7 +9,7 @@ use super::location::Location;
 use super::mismatch::Place;
 use super::noise::Noise;
 use super::overtones::{OF_CODES, overtones};
-use super::search::Found;
+use super::search::{Found, Named};
 use super::source::{Shown, is_one, shown};
 use super::steps::step;
 
@@ -37,8 +37,13 @@ fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Opt
             format!("a pattern that repeats every {period_dn:.1} DN and is no wave")
         }
     };
-    let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, baseline.take);
+    let (ln_bayes, chi2, take) = (stands_for(named), named.score, baseline.take);
     Some((OF_CODES, Place { coordinate: "code", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }))
+}
+
+/// Evidence of what has this name, nats: no more than the fit kept of it.
+fn stands_for(named: &Named) -> f64 {
+    named.ln_bayes.min(0.5 * named.score.0)
 }
 
 /// What swings by more than this share of the ambient light, for which it is taken, is something else.
@@ -64,7 +69,7 @@ fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<(
     };
     let shape = format!("offset, a line of {:.2} Hz that {what}", clearest.hz);
     let looked = series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);
-    let (ln_bayes, chi2, take) = (named.ln_bayes, named.score, clearest.take);
+    let (ln_bayes, chi2, take) = (stands_for(named), named.score, clearest.take);
     Some((FLICKER, Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false }))
 }
 

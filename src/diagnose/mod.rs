@@ -20,6 +20,7 @@ mod effect_row;
 mod encoder_noise;
 mod evidence;
 mod exchange;
+mod finished;
 mod fit;
 mod gaps;
 mod gram;

@@ -101,10 +101,10 @@ fn separation(
 ) -> f64 {
     let recorded = &data.takes[take];
     let moments: Vec<Moment> = recorded.moments.iter().map(proposal.change).collect();
-    // What would be measured does not matter, only that it would be.
-    let signal_dn = vec![0.0; recorded.signal_dn.len()];
-    let planned = Take { moments, signal_dn, ..recorded.clone() };
-    let with_plan = data.with_takes(vec![recorded.clone(), planned]);
+    let plan = |signal_dn: Vec<f32>| {
+        let planned = Take { moments: moments.clone(), signal_dn, ..recorded.clone() };
+        data.with_takes(vec![recorded.clone(), planned])
+    };
     // In the plan, all act.
     let everywhere = |pieces: &[Piece]| -> Vec<Piece> {
         pieces
@@ -117,6 +117,15 @@ fn separation(
     if own.is_empty() || rival.is_empty() {
         return 0.0;
     }
+    // What would be measured does not matter, only that it would be, and not be clipped.
+    let unclipped = plan(vec![0.0; recorded.signal_dn.len()]);
+    let all = everywhere(&judgement.fit.pieces);
+    let (model, _) = Tangents::new(&unclipped, &judgement.fit.pixels, &all, &[]);
+    let greatest_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
+    let seen = |signal: &f64| if *signal < greatest_dn { 0.0 } else { f32::NAN };
+    let signals = (0..recorded.moments.len())
+        .flat_map(|index| model.base(1, index).iter().map(seen).collect::<Vec<_>>());
+    let with_plan = plan(signals.collect());
     let (tangents, columns) = Tangents::new(&with_plan, &judgement.fit.pixels, &own, &rival);
     let gram = Gram::of(&with_plan, &tangents, judgement.noise, &|_| true);
     let matrix = gram.project(Some(judgement.fit.jitter_m2)).matrix;

@@ -6,6 +6,7 @@ use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
 use super::exchange::exchange;
+use super::finished::finished;
 use super::fit::{Fit, fit, fit_below};
 use super::lamps::FLICKER;
 use super::noise::Noise;
@@ -153,7 +154,8 @@ impl<'a> Search<'a> {
         }
         drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
-        let Self { baseline, current, mut named, .. } = self;
+        let Self { data, noise, baseline, current, mut named, .. } = self;
+        let current = finished(data, current, noise);
         // However a drift was named, and if a flicker is not named beside it.
         let is_named = named.iter().any(|named| named.name == FLICKER);
         if !is_named && Alone::of(&alone, FLICKER).is_some() && baseline.series.flicker_rests() {
@@ -314,6 +316,7 @@ impl<'a> Search<'a> {
         let far_choice = if is_broken && !is_far { lead(true) } else { None };
         let is_far = is_far || far_choice.is_some();
         let (best, fitted, near) = far_choice.unwrap_or(first_choice);
+        let fitted = finished(data, fitted, noise);
         rivals.extend(near);
         let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, candidates) == rival);
         rivals.retain(|rival| !own(rival));

@@ -99,7 +99,8 @@ impl Normal {
     /// The best numbers; none where nothing was seen.
     fn fitted(&self) -> Option<Fitted> {
         let scale = self.matrix.norm();
-        if scale <= 0.0 {
+        // Numbers that are none would be looked at for ever.
+        if !(scale > 0.0 && scale.is_finite()) {
             return None;
         }
         let solution = self.matrix.svd(true, true).solve(&self.vector, 1e-9 * scale).ok()?;
@@ -199,6 +200,24 @@ mod tests {
         let size = Geometry { width: 16, height: 12 };
         let recordings = taken(size, 2, &[injection(effect).unwrap()], &["four-rail"]).unwrap();
         Data::of(&recordings, Vec::new()).unwrap()
+    }
+
+    /// A position of 0 is at no distance: its light would be infinite, and what is no number was looked at for ever.
+    #[test]
+    fn a_target_at_no_distance_is_refused_and_no_number_is_no_fit() {
+        let size = Geometry { width: 8, height: 6 };
+        let mut recordings = taken(size, 2, &[], &["four-rail"]).unwrap();
+        recordings[0].sets[3].position_m = Some(0.0);
+        let refusal = Data::of(&recordings, Vec::new()).unwrap_err().to_string();
+        assert!(
+            refusal.contains("sets.csv: position_m = 0 in set 3") && refusal.contains("way out: "),
+            "{refusal}"
+        );
+        let mut normal = Normal::default();
+        normal.add([f64::NAN, 1.0, 1.0, 1.0], 1.0, 1.0);
+        assert!(normal.fitted().is_none());
+        normal.matrix = Matrix4::from_element(f64::INFINITY);
+        assert!(normal.fitted().is_none());
     }
 
     #[test]

@@ -1,6 +1,5 @@
 //! The fingerprint of a campaign: what its seal binds to its label.
 
-use super::seal::hexadecimal;
 use crate::artifact::files_below;
 use crate::problem::{Problem, Result};
 use sha2::{Digest, Sha256};
@@ -11,7 +10,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// A file that cannot be read.
-pub fn fingerprint(folder: &Path, name: &str) -> Result<String> {
+pub(super) fn fingerprint(folder: &Path, name: &str) -> Result<String> {
     let mut files = files_below(folder, name)?;
     files.sort_unstable();
     let mut hash = Sha256::new();
@@ -23,5 +22,5 @@ pub fn fingerprint(folder: &Path, name: &str) -> Result<String> {
         hash.update((bytes.len() as u64).to_le_bytes());
         hash.update(&bytes);
     }
-    Ok(hexadecimal(&hash.finalize()))
+    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
