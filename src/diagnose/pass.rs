@@ -289,7 +289,11 @@ impl Pass {
             let others: Vec<usize> =
                 model.blocks.iter().map(candidate).filter(|c| !own.contains(c)).collect();
             if let [other] = others[..] {
-                rivals.push(candidates[other].effect.name.to_owned());
+                let name = candidates[other].effect.name;
+                // It may be there in several ways.
+                if !rivals.iter().any(|rival| rival == name) {
+                    rivals.push(name.to_owned());
+                }
             }
         }
         rivals
