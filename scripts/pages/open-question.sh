@@ -24,6 +24,7 @@ simulate() { # name, camera, options
     --out "$OUT/$name"
   shown simulate "${bench[@]}" --frame-period-s 0.025 --recordings wdft-sweep,wdft-rail,wdft-motion,harmonics \
     --out "$OUT/$name-wdft"
+  printf '```console\n$ mv %s\n```\n' "$OUT/$name-wdft/*/ $OUT/$name"
   mv "$OUT/$name-wdft"/*/ "$OUT/$name"
   rm -r "$OUT/$name-wdft"
 }
