@@ -581,6 +581,13 @@ fn a_small_challenge_is_made_answered_and_scored() {
     assert_eq!(fs::read_to_string(home.path().join("one/c-labels.json")).unwrap(), labels);
     says(&["score", "one", "--labels", "one/c-labels.json"], "seals.json");
     says(&["score", "one/c", "--labels", "one/c/seals.json"], "seals.json");
+    // Seals of the format before, which knew no campaigns.
+    let file = home.path().join("one/c/seals.json");
+    let seals = fs::read_to_string(&file).unwrap();
+    let before = seals.replace("seals/2", "seals/1").replace("campaign_sha256", "other");
+    fs::write(&file, before).unwrap();
+    says(&["answer", "one/c"], "seals.json: format = \"vuris-challenge-seals/1\"");
+    fs::write(&file, seals).unwrap();
     fs::write(home.path().join("one/c/campaigns/.DS_Store"), "").unwrap();
     vuris(&["answer", "one/c"], home.path()).success();
     let campaign = |name: &str| home.path().join("one/c/campaigns").join(name);

@@ -411,6 +411,10 @@ fn files_that_do_not_fit_are_refused_by_name() {
         home.refused("stack", &[&four[..], &[other, "--as-given"]].concat(), &["f2.png: is named twice"]);
     }
     home.refused("stack", &["."], &[".: is a folder", "name the files"]);
+    fs::write(home.path("times"), "1\n1\n1\n1\n").unwrap();
+    let times = "--steps 4 --step-deg 90 --frequency-hz 30e6 --frame-times times --out out";
+    let equal = [&["import", "stack"], &four[..], &times.split(' ').collect::<Vec<_>>()].concat();
+    assert!(home.refusal(&equal).contains("times: tells no time from a frame of a set to the next"));
     home.refused("stack", &[&four[..], &["--recordings", "3"]].concat(), &["--recordings: 3 of 1 sets"]);
 
     fs::write(home.path("text.png"), "no picture").unwrap();

@@ -19,7 +19,7 @@ pub use case::{Case, CaseKind, drawn};
 pub use judge::{Answer, Asserted, Estimate, HeldOut, Located, Outcome, judge, judge_names};
 pub use label::{Hidden, Label};
 pub use score::{Calibration, Judged, PROBABILITIES, Scored, scored};
-pub use seal::{LabelFile, Seal, SealFile, SealedLabel, entropy, opened, sealed};
+pub use seal::{LabelFile, Seal, SealFile, SealedLabel, entropy, hexadecimal, opened, sealed};
 pub use simpler::{METHODS, Simpler};
 pub use summary::summary;
 pub use table::table;

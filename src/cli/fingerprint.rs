@@ -1,6 +1,7 @@
 //! The fingerprint of a campaign: what its seal binds to its label.
 
 use crate::artifact::files_below;
+use crate::challenge::hexadecimal;
 use crate::problem::{Problem, Result};
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -22,5 +23,5 @@ pub(super) fn fingerprint(folder: &Path, name: &str) -> Result<String> {
         hash.update((bytes.len() as u64).to_le_bytes());
         hash.update(&bytes);
     }
-    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(hexadecimal(&hash.finalize()))
 }

@@ -157,9 +157,7 @@ const LEADING: f64 = 0.9;
 fn stays(places: &[Place], left: &[Place]) -> bool {
     let (Some(most), Some(left)) = (places.first(), left.first()) else { return false };
     let is_leading = |place: &&Place| place.ln_bayes >= LEADING * most.ln_bayes;
-    std::iter::once(most)
-        .chain(places.iter().filter(is_leading))
-        .any(|place| place.coordinate == left.coordinate)
+    places.iter().filter(is_leading).any(|place| place.coordinate == left.coordinate)
 }
 
 /// The names of what was `found` that stand beside random errors which raise the variance of columns by `inflation`.

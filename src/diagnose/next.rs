@@ -101,10 +101,8 @@ fn separation(
 ) -> f64 {
     let recorded = &data.takes[take];
     let moments: Vec<Moment> = recorded.moments.iter().map(proposal.change).collect();
-    let plan = |signal_dn: Vec<f32>| {
-        let planned = Take { moments: moments.clone(), signal_dn, ..recorded.clone() };
-        data.with_takes(vec![recorded.clone(), planned])
-    };
+    let planned = Take { moments, ..recorded.clone() };
+    let mut with_plan = data.with_takes(vec![recorded.clone(), planned]);
     // In the plan, all act.
     let everywhere = |pieces: &[Piece]| -> Vec<Piece> {
         pieces
@@ -118,14 +116,13 @@ fn separation(
         return 0.0;
     }
     // What would be measured does not matter, only that it would be, and not be clipped.
-    let unclipped = plan(vec![0.0; recorded.signal_dn.len()]);
-    let all = everywhere(&judgement.fit.pieces);
-    let (model, _) = Tangents::new(&unclipped, &judgement.fit.pixels, &all, &[]);
+    let (model, _) =
+        Tangents::new(&with_plan, &judgement.fit.pixels, &everywhere(&judgement.fit.pieces), &[]);
     let greatest_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
     let seen = |signal: &f64| if *signal < greatest_dn { 0.0 } else { f32::NAN };
-    let signals = (0..recorded.moments.len())
-        .flat_map(|index| model.base(1, index).iter().map(seen).collect::<Vec<_>>());
-    let with_plan = plan(signals.collect());
+    let frames = (0..recorded.moments.len()).map(|index| model.base(1, index));
+    let signal_dn = frames.flat_map(|signal| signal.iter().map(seen).collect::<Vec<_>>()).collect();
+    with_plan.takes[1].signal_dn = signal_dn;
     let (tangents, columns) = Tangents::new(&with_plan, &judgement.fit.pixels, &own, &rival);
     let gram = Gram::of(&with_plan, &tangents, judgement.noise, &|_| true);
     let matrix = gram.project(Some(judgement.fit.jitter_m2)).matrix;

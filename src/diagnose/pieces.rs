@@ -110,10 +110,6 @@ const SMOOTH: (&str, f64) = ("adc_nonlinearity", 10.0);
 /// is off by millimetres that is a mistake; light that comes another way, which amplitudes may take for that, every bench has.
 const UNLIKELY: [(&str, f64); 1] = [("encoder_offset", 10.0)];
 
-/// Effects that are a scale, or the zero, of distances: where nothing of the camera is described, and a target moves, nobody knows how oblique the pixels' rays are, and how
-/// much farther each of them is than the encoder says.
-const OF_DISTANCES: [&str; 3] = ["encoder_scale", "encoder_offset", "modulation_frequency_error"];
-
 /// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
 const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
 
@@ -190,8 +186,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         .copied()
         .filter(|effect| {
             let is_seen = (data.grid.every == 1 || !OF_NEIGHBOURS.contains(&effect.name))
-                && (data.assumed.still_scene || !OF_STILL_SCENES.contains(&effect.name))
-                && !(data.assumed.camera && !data.assumed.still_scene && OF_DISTANCES.contains(&effect.name));
+                && (data.assumed.still_scene || !OF_STILL_SCENES.contains(&effect.name));
             effect.chance == Chance::None
                 && effect.name != effects::FIXED_POINT
                 && is_seen

@@ -223,15 +223,15 @@ impl<'a> Search<'a> {
     /// instead. The strongest one alone may take on another shape, and leave to others what that cannot say.
     fn reconsiders(&mut self, pass: &Pass, candidates: &[Candidate]) -> bool {
         let Some(promised) = self.promised.take() else { return false };
-        let came = (&self.current, &self.named[..]);
-        let better = || promised.better_than(self.data, self.noise, &self.baseline, came);
-        let is_hopeless = promised.is_hopeless(&self.current.pieces, &|name| pass.excess(name, candidates));
-        let better = if is_hopeless { None } else { better() };
-        let is_better = better.is_some();
-        if let Some((fit, named)) = better {
-            (self.current, self.named) = (fit, named);
+        if promised.is_hopeless(&self.current.pieces, &|name| pass.excess(name, candidates)) {
+            return false;
         }
-        is_better
+        let came = (&self.current, &self.named[..]);
+        let Some(better) = promised.better_than(self.data, self.noise, &self.baseline, came) else {
+            return false;
+        };
+        (self.current, self.named) = better;
+        true
     }
 
     /// Goes on from the fit `completed` and what was `named` before it was, at the fit `before`.

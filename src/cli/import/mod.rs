@@ -10,7 +10,7 @@ use crate::import::{
     read_raw, recordings,
 };
 use crate::problem::{Problem, Result};
-use crate::recording::{write_campaign, write_recording, write_recording_with_camera};
+use crate::recording::{Kind, write_campaign, write_recording, write_recording_with_camera};
 use clap::{Args, Subcommand, ValueEnum};
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -196,7 +196,7 @@ fn import(frames: &Frames, read: impl FnOnce(&[PathBuf], &mut Stack) -> Result<(
         );
     }
     let span_deg = span_rad(&taking).to_degrees();
-    if span_deg < LEAST_SPAN_DEG {
+    if span_deg < LEAST_SPAN_DEG && taking.kind != Kind::Dark {
         say!("all phase steps and offsets are within {span_deg:.1} degrees: is --step-deg in degrees?");
     }
     let mut unknown = Vec::new();

@@ -114,19 +114,19 @@ impl Frames {
                 ));
         }
         let frame_times_s = self.frame_times.as_deref().map(times_s).transpose()?;
-        let of_times = |times_s: &[f64]| mean_period_s(times_s, self.steps);
-        let mean_s = frame_times_s.as_deref().map(of_times);
-        if let (Some(None), None, Some(file)) = (mean_s, self.frame_period_s, &self.frame_times) {
-            return Err(Problem::in_file(file, "the frames of a set begin no later than each other")
-                .expected("times that grow from frame to frame")
-                .remedy("correct them, or give --frame-period-s, too"));
-        }
-        let frame_period_s = self.frame_period_s.or(mean_s.flatten());
-        let frame_period_s = frame_period_s.ok_or_else(|| {
-            Problem::at("--frame-period-s", "is missing")
-                .expected("s from the start of a frame to the start of the next: a recording needs it, and frames do not tell it")
-                .remedy("--frame-times FILE says it, too, where the start of every frame was recorded")
-        })?;
+        let frame_period_s = match (self.frame_period_s, &self.frame_times, &frame_times_s) {
+            (Some(period_s), ..) => period_s,
+            (None, Some(file), Some(times_s)) => mean_period_s(times_s, self.steps).ok_or_else(|| {
+                Problem::in_file(file, "tells no time from a frame of a set to the next")
+                    .expected("times that grow from frame to frame, of sets of two frames or more")
+                    .remedy("correct them, or give --frame-period-s, too")
+            })?,
+            _ => {
+                return Err(Problem::at("--frame-period-s", "is missing")
+                    .expected("s from the start of a frame to the start of the next: a recording needs it, and frames do not tell it")
+                    .remedy("--frame-times FILE says it, too, where the start of every frame was recorded"));
+            }
+        };
         let all = |option: &str, values: &[f64], allowed: RangeInclusive<f64>| {
             values.iter().try_for_each(|&value| in_range(option, value, &allowed))
         };
