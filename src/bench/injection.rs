@@ -10,9 +10,18 @@ use crate::recording::{BASELINE, Camera, effect_name};
 /// # Errors
 /// An unknown effect or parameter, and a value that is no number or beyond the parameter's bounds.
 pub fn injection(text: &str) -> Result<Active> {
+    injection_among(text, &[])
+}
+
+/// The same, where the effect may also be one of a `library`.
+///
+/// # Errors
+/// As [`injection`].
+pub fn injection_among(text: &str, library: &[&'static Effect]) -> Result<Active> {
     let (name, settings) = text.split_once(':').unwrap_or((text, ""));
-    let effect = effects::named(name).ok_or_else(|| {
-        let names: Vec<&str> = EFFECTS.iter().map(|effect| effect.name).collect();
+    let of_library = || library.iter().copied().find(|effect| effect.name == name);
+    let effect = effects::named(name).or_else(of_library).ok_or_else(|| {
+        let names: Vec<&str> = EFFECTS.iter().chain(library).map(|effect| effect.name).collect();
         Problem::at("--effect", format_args!("no effect is called {name}"))
             .expected(names.join(", "))
             .nearest(name, names)
@@ -53,15 +62,15 @@ fn within(effect: &Effect, parameter: &Parameter, text: &str) -> Result<f64> {
     })
 }
 
-/// The effects that `camera` includes with values, those that act in `recording`.
+/// The effects that `camera` includes with values, of the registry or a `library`, those that act in `recording`.
 ///
 /// # Errors
 /// An effect that is not known, or a value that it cannot have.
-pub fn camera_effects(camera: &Camera, recording: &str) -> Result<Vec<Active>> {
+pub fn camera_effects(camera: &Camera, recording: &str, library: &[&'static Effect]) -> Result<Vec<Active>> {
     let mut effects = Vec::new();
     for text in &camera.effects {
         let (effect, recordings) = text.split_once('@').unwrap_or((text, ""));
-        let active = injection(effect)
+        let active = injection_among(effect, library)
             .map_err(|problem| problem.moved_to(format_args!("camera.toml: physics.effects: {text}")))?;
         if recordings.is_empty() || recordings.split(',').any(|known| known == recording) {
             effects.push(active);
@@ -126,7 +135,7 @@ mod tests {
             ("image_lug:share=0.1@a", "way out: did you mean image_lag?"),
             ("image_lag:share=0.9", "image_lag: share = 0.9\n  expected: a number from 0 to 0.5"),
         ] {
-            let refusal = camera_effects(&camera(text), "b").unwrap_err().to_string();
+            let refusal = camera_effects(&camera(text), "b", &[]).unwrap_err().to_string();
             let place = format!("camera.toml: physics.effects: {text}: ");
             assert!(refusal.starts_with(&place) && refusal.contains(words), "{refusal}");
         }

@@ -3,20 +3,20 @@
 //! A recording holds raw codes, so that of a pipeline's arithmetic only its input can be in one: low bits of the converter that the
 //! specification's `sensor.adc_bits` leaves out. What the pipeline rounds later, from sums to distances, is what the integer model computes.
 
-use super::injection::injection;
-use crate::physics::{Active, effects};
+use super::injection::{injection, injection_among};
+use crate::physics::{Active, Effect, effects};
 use crate::problem::{Problem, Result};
 use crate::spec::Pipeline;
 
 const PARAMETER: &str = "pipeline";
 
-/// The effect that `text` names, as [`injection`] reads it; beside that, `fixed_point:pipeline=SPEC`, SPEC a preset or a TOML file, for a
+/// The effect, of the registry or a `library`, that `text` names, as [`injection_among`] reads it; beside that, `fixed_point:pipeline=SPEC`, SPEC a preset or a TOML file, for a
 /// camera whose codes have `adc_bits` bits: bits_cut is what these have more than `sensor.adc_bits`, and 0 where they have no more.
 ///
 /// # Errors
-/// As [`injection`]; a specification that cannot be read; more bits cut than the effect allows.
-pub fn injection_for(text: &str, adc_bits: u32) -> Result<Active> {
-    let Some(specification) = specification_of(text) else { return injection(text) };
+/// As [`injection_among`]; a specification that cannot be read; more bits cut than the effect allows.
+pub fn injection_for(text: &str, adc_bits: u32, library: &[&'static Effect]) -> Result<Active> {
+    let Some(specification) = specification_of(text) else { return injection_among(text, library) };
     let taken = Pipeline::named(specification)?.sensor.adc_bits;
     let bits = adc_bits.saturating_sub(taken);
     injection(&format!("{}:bits_cut={bits}", effects::FIXED_POINT)).map_err(|_| {
@@ -40,11 +40,11 @@ mod tests {
     fn a_pipeline_cuts_what_it_has_no_place_for() {
         // The preset takes 12 bits.
         for (adc_bits, cut) in [(10, 0.0), (12, 0.0), (13, 1.0), (16, 4.0)] {
-            let active = injection_for("fixed_point:pipeline=vuris", adc_bits).unwrap();
+            let active = injection_for("fixed_point:pipeline=vuris", adc_bits, &[]).unwrap();
             assert_eq!((active.effect.name, active.values), ("fixed_point", vec![cut]), "{adc_bits}");
         }
-        assert_eq!(injection_for("fixed_point:bits_cut=3", 16).unwrap().values, [3.0]);
-        assert_eq!(injection_for("image_lag", 16).unwrap().values, injection("image_lag").unwrap().values);
+        assert_eq!(injection_for("fixed_point:bits_cut=3", 16, &[]).unwrap().values, [3.0]);
+        assert_eq!(injection_for("image_lag", 16, &[]).unwrap().values, injection("image_lag").unwrap().values);
     }
 
     #[test]
@@ -55,7 +55,7 @@ mod tests {
             Pipeline::named("vuris").unwrap().adapted("narrow", |s| s.sensor.adc_bits = 8).unwrap().to_toml();
         std::fs::write(&narrow, text).unwrap();
         let text = format!("fixed_point:pipeline={}", narrow.display());
-        assert_eq!(injection_for(&text, 14).unwrap().values, [6.0]);
+        assert_eq!(injection_for(&text, 14, &[]).unwrap().values, [6.0]);
         for (text, adc_bits, words) in [
             (
                 text.as_str(),
@@ -67,7 +67,7 @@ mod tests {
             ("fixed_point:bits_cut=1,pipeline=vuris", 12, "fixed_point has no parameter pipeline"),
             ("image_lag:pipeline=vuris", 12, "image_lag has no parameter pipeline"),
         ] {
-            let refusal = injection_for(text, adc_bits).unwrap_err().to_string();
+            let refusal = injection_for(text, adc_bits, &[]).unwrap_err().to_string();
             assert!(refusal.contains(words), "{refusal}");
         }
     }

@@ -1,10 +1,11 @@
 //! `vuris diagnose`
 
 use super::campaign::{recordings_in, remark_on_physics};
+use super::library::effects_in;
 use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
-use crate::diagnose::{Data, Diagnosis, camera_with, diagnose, library};
+use crate::diagnose::{Data, Diagnosis, camera_with, diagnose};
 use crate::physics::Effect;
 use crate::problem::{Problem, Result};
 use crate::recording::Recording;
@@ -49,14 +50,7 @@ impl Diagnose {
             .expected("one campaign for one file")
             .remedy("diagnose them one by one"));
         }
-        let library = match &self.library {
-            None => Vec::new(),
-            Some(file) => {
-                let text =
-                    std::fs::read_to_string(file).map_err(|error| Problem::io(file, "read", &error))?;
-                library(&file.display().to_string(), &text)?
-            }
-        };
+        let library = effects_in(self.library.as_deref())?;
         for campaign in &self.campaigns {
             let data = read(campaign, &library)?;
             remark_on_physics(&data.described);

@@ -11,6 +11,7 @@ mod explain;
 mod fingerprint;
 mod generate;
 mod import;
+mod library;
 mod mutate;
 mod option;
 mod paper;

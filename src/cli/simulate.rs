@@ -1,6 +1,7 @@
 //! `vuris simulate`
 
 use super::campaign::remark_on_physics;
+use super::library::effects_in;
 use super::option::{each_once, in_range};
 use super::print::{counted, remark, say};
 use super::progress;
@@ -29,6 +30,9 @@ pub(super) struct Simulate {
     /// cuts the bits for which the specification SPEC (a preset or a TOML file) has no place
     #[arg(long, value_name = "NAME[:PARAMETER=VALUE,…]")]
     effect: Vec<String>,
+    /// Effects of your own, as formulas, for --effect and for what the camera includes
+    #[arg(long, value_name = "FILE.toml")]
+    library: Option<PathBuf>,
     /// The camera; without it, a small one of 12 bits
     #[arg(long, value_name = "camera.toml")]
     camera: Option<PathBuf>,
@@ -117,8 +121,12 @@ impl Simulate {
         let out = self.out.as_deref().unwrap_or(Path::new("."));
         let camera = self.described_camera()?;
         remark_on_physics(&camera);
-        let effects: Vec<Active> =
-            self.effect.iter().map(|text| injection_for(text, camera.adc_bits)).collect::<Result<_>>()?;
+        let library = effects_in(self.library.as_deref())?;
+        let effects: Vec<Active> = self
+            .effect
+            .iter()
+            .map(|text| injection_for(text, camera.adc_bits, &library))
+            .collect::<Result<_>>()?;
         each_once("--effect", "effect", effects.iter().map(|active| active.effect.name))?;
         if let Some(ratio) = self.constant_ratio {
             in_range("--constant-ratio", ratio, &(0.0..=100.0))?;
@@ -142,7 +150,7 @@ impl Simulate {
         let chains: Vec<Chain> = names
             .iter()
             .map(|name| {
-                let mut all = camera_effects(&camera, name)?;
+                let mut all = camera_effects(&camera, name, &library)?;
                 all.extend(effects.iter().cloned());
                 Ok(chain(&camera, Arc::clone(&pixels), all))
             })

@@ -5,7 +5,8 @@ use super::data::Data;
 use super::fit::Fit;
 use super::judge::Judgement;
 use super::noise::{Noise, ROUNDING_DN2};
-use crate::recording::{BASELINE, Camera};
+use super::random::EXCESS_NOISE;
+use crate::recording::{BASELINE, Camera, effect_name};
 
 /// Closer to 1, in standard deviations, a share is 1.
 const WHOLE_SIGMAS: f64 = 4.0;
@@ -47,8 +48,14 @@ pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
         camera.effects.push(format!("{}:{}{only}", piece.effect.name, values.join(",")));
     }
     for (name, strength) in &judgement.random {
+        // What was found of it is all that there is, but for noise beside what is included.
+        let value = match *name {
+            EXCESS_NOISE => strength.value.hypot(data.unpredicted.square.sqrt()),
+            _ => strength.value,
+        };
+        camera.effects.retain(|text| effect_name(text) != *name);
         let parameter = crate::physics::effects::named(name).and_then(|effect| effect.parameters.first());
-        let told = parameter.map(|parameter| format!("{name}:{}={:?}", parameter.name, strength.value));
+        let told = parameter.map(|parameter| format!("{name}:{}={value:?}", parameter.name));
         camera.effects.extend(told);
     }
     camera

@@ -1,6 +1,7 @@
 //! A campaign as the fit sees it: frames above the pedestal, which samples count, and what the encoder said of each.
 
 use super::grid::Grid;
+use super::included::Unpredicted;
 use super::places::with_places;
 use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
@@ -20,7 +21,7 @@ pub struct Take {
     pub moments: Vec<Moment>,
     /// Frames a set.
     pub frames: usize,
-    /// Effects that the camera's simulation includes, with values.
+    /// Effects that the camera's simulation includes, with values, but for what is [`Unpredicted`].
     pub included: Vec<Active>,
     /// Signals above the pedestal, DN, `[frame, pixel]`; NaN where a sample does not count.
     pub signal_dn: Vec<f32>,
@@ -41,6 +42,8 @@ pub struct Data {
     pub target: Vec<bool>,
     /// Low bits that no code of any recording has set.
     pub cut_bits: u32,
+    /// What the camera's simulation includes that no prediction shows.
+    pub unpredicted: Unpredicted,
     /// Effects that may be found beside those of the registry.
     pub library: Vec<&'static Effect>,
     /// What was taken for granted, as no file says it.
@@ -116,6 +119,15 @@ impl Data {
         let seen = |grid| Self::seen(recordings, &camera, &library, assumed, &target, grid);
         let close = grid.close(&target).map(seen).transpose()?;
         let data = Self { close: close.map(Arc::new), ..seen(grid)? };
+        if data.unpredicted.bits_cut > data.cut_bits {
+            let found = format!(
+                "codes have bits below the {} that camera.toml says are cut off (fixed_point)",
+                data.unpredicted.bits_cut
+            );
+            return Err(Problem::in_file(&first.folder, found)
+                .expected(format_args!("{} bits cut at most", data.cut_bits))
+                .remedy("correct physics.effects of camera.toml"));
+        }
         if data.free_shares().into_iter().all(|share| share <= 0.0) {
             let samples = data.samples_of_pixels().into_iter().max().unwrap_or(0);
             if samples == 0 {
@@ -218,8 +230,13 @@ impl Data {
     ) -> Result<Self> {
         let geometry = camera.geometry;
         let pixels = grid.pixels();
+        let included: Vec<Vec<Active>> = recordings
+            .iter()
+            .map(|recording| camera_effects(camera, &recording.name, library))
+            .collect::<Result<_>>()?;
+        let unpredicted = Unpredicted::of(included.iter().map(Vec::as_slice));
         let mut takes = Vec::new();
-        for recording in recordings {
+        for (recording, included) in recordings.iter().zip(included) {
             let course = if assumed.still_scene { Course::still(recording) } else { Course::of(recording)? };
             let full_scale = camera.full_scale();
             let signal = |code: u32| match code {
@@ -231,7 +248,7 @@ impl Data {
                 name: recording.name.clone(),
                 moments: with_places(course.moments()),
                 frames: course.frames(),
-                included: camera_effects(camera, &recording.name)?,
+                included: included.into_iter().filter(Unpredicted::is_predicted).collect(),
                 signal_dn: recording
                     .raw
                     .codes()
@@ -250,6 +267,7 @@ impl Data {
             takes,
             target: pixels.iter().map(|&pixel| target[pixel]).collect(),
             cut_bits,
+            unpredicted,
             library: library.to_vec(),
             assumed,
             close: None,
@@ -336,6 +354,14 @@ impl Data {
         for active in data.takes.iter_mut().flat_map(|take| &mut take.included) {
             active.values = active.effect.with_share(&active.values, share);
         }
+        data
+    }
+
+    /// The same without the effect called `name` in the camera's simulation.
+    #[must_use]
+    pub fn without_included(&self, name: &str) -> Self {
+        let mut data = self.clone();
+        data.takes.iter_mut().for_each(|take| take.included.retain(|active| active.effect.name != name));
         data
     }
 

@@ -68,6 +68,7 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     // Jitter predicts no sample.
     let is_same = after.fit.pieces.is_empty() && after.noise == before.noise;
     let old = if is_same { new.clone() } else { predict(before) };
+    let old = with_jitters(old, before.jitters);
     let new = with_jitters(new, after.jitters);
     // Frames of a set are not predicted independently, blocks of the image are; what is off at random by frames is not of a block.
     let of_blocks = |(old, new): (&Seen, &Seen)| -> Vec<f64> {

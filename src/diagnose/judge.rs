@@ -6,6 +6,7 @@ use super::data::Data;
 use super::finished::finished;
 use super::fit::{Fit, fit};
 use super::held_out::Predictor;
+use super::included::left_by_forms;
 use super::location::{LOCATED_NATS, Location};
 use super::mismatch::{Place, places};
 use super::misnamed::misnamed;
@@ -13,16 +14,13 @@ use super::noise::Noise;
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::Piece;
 use super::random::{
-    self, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms, of_name, random_effect,
+    self, EXCESS_NOISE, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms, of_name, random_effect,
     two_jitters, words,
 };
 use super::search::{Found, Named, tolerated};
 use super::searched::{InProportion, Searched, searched};
 use super::vote::Names;
 use crate::physics::effects;
-
-/// Noise in proportion to the signal, by the registry's name.
-const EXCESS_NOISE: &str = "excess_noise";
 
 /// Everything that a diagnosis finds.
 #[derive(Debug)]
@@ -49,6 +47,8 @@ pub struct Judgement {
     pub noise: Noise,
     /// Noise that rows, columns or frames share besides, in words.
     pub shared_noise: Option<String>,
+    /// Which of the jitters the camera includes.
+    pub jitters: [bool; 2],
 }
 
 impl Judgement {
@@ -57,20 +57,22 @@ impl Judgement {
         let excess = self.random.iter().find(|(name, _)| *name == EXCESS_NOISE);
         let square = excess.map_or(0.0, |(_, strength)| strength.value.powi(2));
         let noise = Noise { square: (self.noise.square - square).max(0.0), ..self.noise };
-        Predictor { fit: &self.found.baseline, noise, reference: self.noise, jitters: [false; 2] }
+        Predictor { fit: &self.found.baseline, noise, reference: self.noise, jitters: self.jitters }
     }
 
     /// The model with everything that is asserted.
     pub fn with(&self) -> Predictor<'_> {
-        let jitters = JITTERS.map(|jitter| self.random.iter().any(|(name, _)| *name == jitter));
+        let is_found = |jitter: usize| self.random.iter().any(|(name, _)| *name == JITTERS[jitter]);
+        let jitters = [0, 1].map(|jitter| self.jitters[jitter] || is_found(jitter));
         Predictor { fit: &self.fit, noise: self.noise, reference: self.noise, jitters }
     }
 }
 
 /// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
+    let of_included = left_by_forms(data, &baseline, stated);
     let (Searched { found, locations: [baseline, end], noise }, in_proportion) =
-        searched(data, baseline, stated);
+        searched(data, baseline, stated, of_included);
     // What random errors let appear among the columns is not asserted.
     let inflation = inflation(data, &end);
     let unlike = misnamed(data, &found, &baseline, noise, inflation);
@@ -90,15 +92,19 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
 
     let seems = random_effect(data, &end);
     // A random effect takes with it what is left at random.
-    let random = seems.filter(|random| is_beyond_forms(random.ln_bayes, tolerated(&named)));
+    let random = seems.filter(|random| is_beyond_forms(random.ln_bayes, tolerated(&named) + of_included));
     let excess = excess(stated, noise, in_proportion).filter(|_| seems.is_none());
-    let at_random = at_random(&end, random.or(excess));
+    let mut at_random = at_random(&end, random.or(excess));
+    let found_at_random = at_random.len();
+    at_random.retain(|random| !data.unpredicted.includes(random));
     let is_left = |place: &&Place| {
         random.is_none_or(|random| {
             !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
         })
     };
     let rest = left.iter().filter(is_left).map(Place::excess).fold(0.0, f64::max);
+    // As where such an effect is found.
+    let rest = if rest < DISBELIEF * of_included { 0.0 } else { rest };
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
     // Far from the baseline columns promise more than there is, and of several effects none is sure. Noise that samples share raises all columns, and
     // so does a random effect.
@@ -134,11 +140,15 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         random.clear();
     }
     // Codes without their low bits need no statistics.
-    if data.cut_bits > 0 && matches!(verdict, Verdict::Clean | Verdict::Explained) {
+    if data.cut_bits > data.unpredicted.bits_cut && matches!(verdict, Verdict::Clean | Verdict::Explained) {
         let cut = cut_bits(&found, data.cut_bits);
         named.push(as_named(&cut));
         random.push((cut.name, cut.strength));
         verdict = Verdict::Explained;
+    }
+    // Errors that the camera includes are no mismatch.
+    if at_random.len() < found_at_random {
+        [&mut places, &mut left].into_iter().for_each(|places| places.retain(|place| !place.is_random));
     }
     if verdict == Verdict::Clean {
         places.clear();
@@ -147,7 +157,21 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let shared_noise = shared.filter(|noise| noise.level != Level::Pixel).map(words);
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
     let locations = [baseline, after];
-    Judgement { verdict, places, left, named, remainder, locations, random, found, fit, noise, shared_noise }
+    let jitters = data.unpredicted.jitter.map(|sigma| sigma > 0.0);
+    Judgement {
+        verdict,
+        places,
+        left,
+        named,
+        remainder,
+        locations,
+        random,
+        found,
+        fit,
+        noise,
+        shared_noise,
+        jitters,
+    }
 }
 
 /// A coordinate in which a mismatch says this share of what it says where it lives most may be where it lives.

@@ -28,11 +28,11 @@ mod grid;
 mod held_frames;
 mod held_out;
 mod images;
+mod included;
 mod in_order;
 mod jitters;
 mod judge;
 mod lamps;
-mod library;
 mod lines;
 mod location;
 mod marginal;
@@ -82,7 +82,6 @@ pub use data::{Assumed, Data, Take};
 pub use fit::Fit;
 pub use held_out::HeldOut;
 pub use judge::Judgement;
-pub use library::library;
 pub use location::{Located, Location};
 pub use mismatch::Place;
 pub use noise::Noise;
@@ -93,7 +92,7 @@ pub use seen::Agreement;
 pub use simpler::Simpler;
 pub use verdict::{Answer, Diagnosis, EffectRow, HeldOutRow, LocatedRow, diagnose};
 
-/// The noise that the camera's description gives: read noise, quantisation, shot noise.
+/// The noise that the camera's description gives: read noise, quantisation, shot noise, and what it includes of noise and errors at random.
 pub fn stated_noise(data: &Data) -> Noise {
     let camera = &data.camera;
     let read_dn = camera.read_noise_e / camera.gain_e_per_dn;
@@ -102,7 +101,7 @@ pub fn stated_noise(data: &Data) -> Noise {
     Noise {
         floor: read_dn * read_dn + unit_dn * unit_dn / 12.0,
         slope: camera.gain_e_per_dn.recip(),
-        square: 0.0,
-        jitter: [0.0; 2],
+        square: data.unpredicted.square,
+        jitter: data.unpredicted.jitter,
     }
 }

@@ -142,14 +142,26 @@ const CHUNKS: usize = 64;
 const BINS: usize = 48;
 
 /// What the residuals of `fit` show beyond the noise that was `stated`: their squares over the signal, by least squares, no part less than
-/// was stated.
-pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
+/// was stated. Beside the noise `known` so far they are looked at first, and then beside what they showed: what is far beyond the noise does not count in full.
+pub fn beyond(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
+    let mut found = beside(data, fit, known, stated);
+    for _ in 1..LOOKS {
+        found = beside(data, fit, found.noise, stated);
+    }
+    found
+}
+
+/// How often residuals are looked at, each time beside the noise that they showed the time before.
+const LOOKS: usize = 4;
+
+/// The same, beside the noise `known`.
+fn beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
     let full_scale_dn = fit.pixels.full_scale_dn;
     // Samples, and sums of their signal and of their residual's square over the variance.
     let add = |mut bins: Vec<[f64; 3]>, &(take, index): &(usize, usize)| {
         let base = tangents.base(take, index);
-        let (roots, residuals) = whiten(data, take, index, &base, stated);
+        let (roots, residuals) = whiten(data, take, index, &base, known);
         for ((&signal, residual), _) in
             base.iter().zip(residuals).zip(&roots).filter(|(_, root)| **root > 0.0)
         {
@@ -172,10 +184,11 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
     let bins = joined(&frames, chunk, of_chunk, join).unwrap_or_else(none);
     let points = bins.into_iter().filter(|bin| bin[0] > 0.0).map(|[count, signals, squares]| {
         let signal = signals / count;
-        let (variance, ratio) = (stated.weight(signal).recip(), squares / count);
+        let (variance, ratio) = (known.weight(signal).recip(), squares / count);
         // The squares scatter by the variance that there is.
         let scatter = variance * ratio.max(1.0);
-        Point { signal, more: (ratio - 1.0) * variance, weight: count / (2.0 * scatter * scatter) }
+        let more = ratio * variance - stated.weight(signal).recip();
+        Point { signal, more, weight: count / (2.0 * scatter * scatter) }
     });
     let points: Vec<Point> = points.collect();
     let (like_stated, without) = least(&points, 2);
@@ -186,7 +199,7 @@ pub fn beyond(data: &Data, fit: &Fit, stated: Noise) -> Beyond {
         floor: stated.floor + parts[0],
         slope: stated.slope + parts[1],
         square: stated.square + parts[2],
-        ..stated
+        ..known
     };
     Beyond { noise, in_proportion, square_sigma: sigma_of_square(&points, &parts) }
 }

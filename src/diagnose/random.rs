@@ -132,6 +132,8 @@ pub struct RandomEffect {
     pub inflation: f64,
 }
 
+/// Noise in proportion to the signal, by the registry's name.
+pub const EXCESS_NOISE: &str = "excess_noise";
 /// Random errors of frames that the registry has: of the phase, and of the time.
 pub const JITTERS: [&str; 2] = ["clock_jitter", "timing_jitter_of_frames"];
 /// Of the evidence for a random effect, a second one beside it must have so much, and so many nats besides.

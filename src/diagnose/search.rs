@@ -94,6 +94,8 @@ pub struct Search<'a> {
     noise: Noise,
     /// By how much white noise that samples share raises the variance of what columns say.
     inflation: f64,
+    /// Chi squared that the forms of effects which the camera includes may leave.
+    of_included: f64,
     baseline: Fit,
     /// The fit with what is named.
     current: Fit,
@@ -109,13 +111,14 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Of `data`, to which `baseline` was fitted without any effect, beside noise that samples share, which raises the variance of what columns say
-    /// by `inflation`.
-    pub fn new(data: &'a Data, baseline: Fit, noise: Noise, inflation: f64) -> Self {
+    /// by `inflation`, and where the forms of effects that the camera includes may leave so much of chi squared.
+    pub fn new(data: &'a Data, baseline: Fit, noise: Noise, inflation: f64, of_included: f64) -> Self {
         let current = baseline.clone();
         Self {
             data,
             noise,
             inflation,
+            of_included,
             baseline,
             current,
             named: Vec::new(),
@@ -183,7 +186,7 @@ impl<'a> Search<'a> {
         let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
         let trusts = trust && !is_far && self.named.len() < MOST_TRUSTED;
         let is_trusted = |candidate: usize| trusts && !is_alike(candidate);
-        let tolerated = share * tolerated(&self.named);
+        let tolerated = share * tolerated(&self.named) + self.of_included;
         let next = pass.next(self.named.len(), tolerated, &is_trusted);
         let without = pass.next(self.named.len(), tolerated, &|_| false);
         let without = (without != next).then(|| Self {

@@ -31,30 +31,35 @@ pub struct InProportion {
 }
 
 /// Searches `data`, to which `baseline` was fitted without any effect, again where single pixels have more noise than was `stated`, and where frames share
-/// errors.
-pub fn searched(data: &Data, baseline: Fit, stated: Noise) -> (Searched, InProportion) {
-    let mut searched = search(data, baseline, stated);
+/// errors. The forms of effects that the camera includes may leave chi squared `of_included`.
+pub fn searched(
+    data: &Data,
+    baseline: Fit,
+    stated: Noise,
+    of_included: f64,
+) -> (Searched, InProportion) {
+    let mut searched = search(data, baseline, stated, of_included);
     let mut in_proportion = InProportion::default();
     for _ in 0..NOISE_STEPS {
         if !is_noisier(data, &searched.locations[1]) {
             break;
         }
-        let more = beyond(data, &searched.found.fit, searched.noise);
-        in_proportion.ln_bayes += more.in_proportion;
-        in_proportion.square_sigma = in_proportion.square_sigma.max(more.square_sigma);
-        searched = search(data, unfitted(data, more.noise), more.noise);
+        let more = beyond(data, &searched.found.fit, searched.noise, stated);
+        in_proportion =
+            InProportion { ln_bayes: more.in_proportion, square_sigma: more.square_sigma };
+        searched = search(data, unfitted(data, more.noise), more.noise, of_included);
     }
-    let beside = beside_jitter(data, searched.noise, &searched.locations[1]);
+    let beside = beside_jitter(data, searched.noise, &searched.locations[1], of_included);
     (beside.unwrap_or(searched), in_proportion)
 }
 
 /// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not. Where all that is left of the simulation looks like a
 /// jitter, it is made beside that.
-fn search(data: &Data, baseline: Fit, noise: Noise) -> Searched {
+fn search(data: &Data, baseline: Fit, noise: Noise, of_included: f64) -> Searched {
     let before = locate(data, &baseline, noise);
     let is_random = random_effect(data, &before).is_some();
     // Beside what frames share names would be found by the dozen, and fitted, that do not stand.
-    if let Some(beside) = is_random.then(|| beside_jitter(data, noise, &before)).flatten() {
+    if let Some(beside) = is_random.then(|| beside_jitter(data, noise, &before, of_included)).flatten() {
         return beside;
     }
     let inflation = random::noise(data, &before).map_or(1.0, |noise| noise.inflation);
@@ -62,7 +67,7 @@ fn search(data: &Data, baseline: Fit, noise: Noise) -> Searched {
         [] => before.clone(),
         _ => locate(data, &found.fit, noise),
     };
-    let (mut found, without_trust) = Search::new(data, baseline, noise, inflation).with_trust();
+    let (mut found, without_trust) = Search::new(data, baseline, noise, inflation, of_included).with_trust();
     let mut after = end(&found);
     // Far from the baseline no form was trusted.
     let is_far = found.baseline.is_far_from(&found.fit);
@@ -77,12 +82,12 @@ fn search(data: &Data, baseline: Fit, noise: Noise) -> Searched {
 
 /// The same beside errors of frames, where the `end` of a search shows such as a jitter makes, and a search that has them among the noise leaves nothing else:
 /// what frames share is no evidence for anything that does it in another way.
-fn beside_jitter(data: &Data, noise: Noise, end: &Location) -> Option<Searched> {
+fn beside_jitter(data: &Data, noise: Noise, end: &Location, of_included: f64) -> Option<Searched> {
     if noise.jitter != [0.0; 2] {
         return None;
     }
     let beside = Noise { jitter: jitter(data, end)?, ..noise };
-    let searched = search(data, unfitted(data, beside), beside);
+    let searched = search(data, unfitted(data, beside), beside, of_included);
     let (found, after) = (&searched.found, &searched.locations[1]);
     // What orders the errors must not show, whether they are among the noise or not.
     let is_random = |location: &Location| random_effect(data, location).is_some();

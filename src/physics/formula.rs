@@ -93,24 +93,40 @@ impl Formula {
                     .expected(format_args!("parameters ({}) and {}", parameters.join(", "), names.join(", ")))
             })
         });
-        let variables = variables.collect::<Result<_>>()?;
+        let variables: Vec<Variable> = variables.collect::<Result<_>>()?;
+        let unused = |name: &&&str| expression.var_names().iter().all(|used| used != **name);
+        if let Some(name) = parameters.iter().find(unused) {
+            return Err(Problem::at("formula", format_args!("{text} does not use the parameter {name}"))
+                .expected("a formula that each of its parameters changes"));
+        }
         Ok(Self { target, expression, variables })
+    }
+
+    /// The value with these values of the parameters, where coordinate number n, in the order of formulas' coordinates, is `coordinate(n)`; nothing where it is not
+    /// finite. `arguments` is for its own use.
+    pub fn value(
+        &self,
+        values: &[f64],
+        coordinate: impl Fn(usize) -> f64,
+        arguments: &mut Vec<f64>,
+    ) -> Option<f64> {
+        let of = |variable: &Variable| match *variable {
+            Variable::Parameter(number) => values[number],
+            Variable::Coordinate(number) => coordinate(number),
+        };
+        arguments.clear();
+        arguments.extend(self.variables.iter().map(of));
+        self.expression.eval(arguments).ok().filter(|value| value.is_finite())
     }
 
     /// Does to `exposure` what the formula says with these values of the parameters. Where it has no finite value, it does nothing.
     pub fn act(&self, values: &[f64], exposure: &mut Exposure) {
-        let mut arguments = vec![0.0; self.variables.len()];
-        let change = |exposure: &Exposure, arguments: &mut Vec<f64>, pixel: usize| {
-            for (argument, variable) in arguments.iter_mut().zip(&self.variables) {
-                *argument = match *variable {
-                    Variable::Parameter(number) => values[number],
-                    Variable::Coordinate(number) => (COORDINATES[number].1)(exposure, pixel),
-                };
-            }
-            self.expression.eval(arguments).ok().filter(|value| value.is_finite()).unwrap_or(0.0)
+        let mut arguments = Vec::new();
+        let mut change = |pixel: usize| {
+            let coordinate = |number: usize| (COORDINATES[number].1)(exposure, pixel);
+            self.value(values, coordinate, &mut arguments).unwrap_or(0.0)
         };
-        let count = exposure.pixels.count();
-        let changes: Vec<f64> = (0..count).map(|pixel| change(exposure, &mut arguments, pixel)).collect();
+        let changes: Vec<f64> = (0..exposure.pixels.count()).map(&mut change).collect();
         let (values, is_share): (&mut [&mut [f64]], bool) = match self.target {
             Target::Signal => (&mut [&mut exposure.signal_dn], false),
             Target::Phase => (&mut [&mut exposure.phase_rad], false),

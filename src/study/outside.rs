@@ -1,6 +1,6 @@
 //! Effects that the registry has not, as formulas: what should be unexplained, and where it should be found.
 
-use crate::diagnose::library;
+use crate::bench::library;
 use crate::physics::Effect;
 use crate::problem::Result;
 

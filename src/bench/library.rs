@@ -50,16 +50,34 @@ fn effect(fields: &Fields) -> Result<Effect> {
     }
     let formula = Formula::new(target, fields.text("formula", "a formula")?, &names)
         .map_err(|problem| fields.refuse("formula", problem.found()))?;
+    let place = target.place();
+    let strengths_off: Vec<f64> = parameters.iter().map(|parameter| parameter.off).collect();
+    let values = |values: &[f64]| PROBES.map(|probe| probed(&formula, values, probe));
+    if values(&strengths_off).iter().any(|value| value.is_some_and(|value| value != 0.0)) {
+        return Err(fields.refuse("formula", "a formula that is 0 where every strength is 0: there the effect is off"));
+    }
+    let typical: Vec<f64> = parameters.iter().map(|parameter| parameter.typical).collect();
+    if values(&typical).iter().all(Option::is_none) {
+        return Err(fields.refuse("formula", "a formula that is a number with the typical values of its parameters"));
+    }
     Ok(Effect {
         name: leaked(name),
         sentence: leaked(sentence),
         reference: "a user's formula",
         parameters: Vec::leak(parameters),
-        place: target.place(),
+        place,
         chance: Chance::None,
         looks_back: false,
         act: Act::Formula(Box::new(formula)),
     })
+}
+
+/// Places at which a formula is tried: what coordinates are there is of no meaning, but that they differ.
+const PROBES: [f64; 4] = [0.31, 0.77, 1.9, 3.3];
+
+/// The value of a `formula` at one of them.
+fn probed(formula: &Formula, values: &[f64], probe: f64) -> Option<f64> {
+    formula.value(values, |number| probe * (number + 1) as f64, &mut Vec::new())
 }
 
 fn parameter(fields: &Fields) -> Result<Parameter> {

@@ -1,0 +1,69 @@
+//! What the description of a camera includes beside what a prediction shows: errors and noise at random, and low bits that are cut off; and what the forms of
+//! effects that it includes may leave.
+
+use super::data::Data;
+use super::fit::{Fit, fit};
+use super::noise::Noise;
+use super::pieces::tolerance;
+use super::random::{EXCESS_NOISE, JITTERS, RandomEffect};
+use super::set_errors::Jitter;
+use crate::physics::{Active, effects};
+use std::collections::BTreeSet;
+
+/// A random effect is more than the camera includes where it is stronger by so many standard deviations: what was found in one campaign, and is included since, is
+/// found again in the next one as exactly as that shows it.
+const MORE_SIGMAS: f64 = 5.0;
+
+/// What no sample's prediction shows.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Unpredicted {
+    /// Random errors of frames, of the phase (rad) and of the time (s).
+    pub jitter: Jitter,
+    /// Noise in proportion to the signal, relative, squared.
+    pub square: f64,
+    /// Low bits of the codes that are cut off.
+    pub bits_cut: u32,
+}
+
+impl Unpredicted {
+    /// Of the effects that a camera includes in each of its recordings: what acts in all of them.
+    pub fn of<'a>(recordings: impl Iterator<Item = &'a [Active]>) -> Self {
+        let names = [JITTERS[0], JITTERS[1], EXCESS_NOISE, effects::FIXED_POINT];
+        let strengths = |effects: &[Active]| {
+            names.map(|name| {
+                let of_name = effects.iter().filter(|active| active.effect.name == name);
+                of_name.map(|active| active.values[0]).fold(0.0, f64::hypot)
+            })
+        };
+        let least = |one: [f64; 4], other: [f64; 4]| std::array::from_fn(|n| one[n].min(other[n]));
+        let [phase_rad, time_s, relative, bits] =
+            recordings.map(strengths).reduce(least).unwrap_or_default();
+        // Bits are whole numbers of a few.
+        Self { jitter: [phase_rad, time_s], square: relative * relative, bits_cut: bits as u32 }
+    }
+
+    /// Whether a prediction shows what `active` does.
+    pub fn is_predicted(active: &Active) -> bool {
+        let name = active.effect.name;
+        !JITTERS.contains(&name) && name != EXCESS_NOISE && name != effects::FIXED_POINT
+    }
+
+    /// Whether the camera includes this `jitter`, as strong as it was found or stronger.
+    pub fn includes(&self, jitter: &RandomEffect) -> bool {
+        let number = JITTERS.iter().position(|name| *name == jitter.name);
+        let included = number.map_or(0.0, |number| self.jitter[number]);
+        included > 0.0 && jitter.strength.value < included + MORE_SIGMAS * jitter.strength.sigma
+    }
+}
+
+/// Chi squared that the forms of the effects which the camera of `data` includes may leave of what these explain, each beside the others, in the fit `baseline`: it
+/// is no mismatch, as it is none where such an effect is found.
+pub fn left_by_forms(data: &Data, baseline: &Fit, noise: Noise) -> f64 {
+    let included: BTreeSet<&str> =
+        data.takes.iter().flat_map(|take| &take.included).map(|active| active.effect.name).collect();
+    let left = |name: &str| {
+        let without = fit(&data.without_included(name), Some(baseline), Vec::new(), noise, &|_| true);
+        tolerance(name) * (without.counted() - baseline.counted()).max(0.0)
+    };
+    included.into_iter().map(left).sum()
+}
