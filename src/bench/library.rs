@@ -54,11 +54,14 @@ fn effect(fields: &Fields) -> Result<Effect> {
     let strengths_off: Vec<f64> = parameters.iter().map(|parameter| parameter.off).collect();
     let values = |values: &[f64]| PROBES.map(|probe| probed(&formula, values, probe));
     if values(&strengths_off).iter().any(|value| value.is_some_and(|value| value != 0.0)) {
-        return Err(fields.refuse("formula", "a formula that is 0 where every strength is 0: there the effect is off"));
+        return Err(fields
+            .refuse("formula", "a formula that is 0 where every strength is 0: there the effect is off"));
     }
     let typical: Vec<f64> = parameters.iter().map(|parameter| parameter.typical).collect();
     if values(&typical).iter().all(Option::is_none) {
-        return Err(fields.refuse("formula", "a formula that is a number with the typical values of its parameters"));
+        return Err(
+            fields.refuse("formula", "a formula that is a number with the typical values of its parameters")
+        );
     }
     Ok(Effect {
         name: leaked(name),

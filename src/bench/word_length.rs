@@ -44,7 +44,10 @@ mod tests {
             assert_eq!((active.effect.name, active.values), ("fixed_point", vec![cut]), "{adc_bits}");
         }
         assert_eq!(injection_for("fixed_point:bits_cut=3", 16, &[]).unwrap().values, [3.0]);
-        assert_eq!(injection_for("image_lag", 16, &[]).unwrap().values, injection("image_lag").unwrap().values);
+        assert_eq!(
+            injection_for("image_lag", 16, &[]).unwrap().values,
+            injection("image_lag").unwrap().values
+        );
     }
 
     #[test]

@@ -9,6 +9,8 @@ use super::lamps::FLICKER;
 use super::pieces::Piece;
 use super::search::Named;
 use super::verdict::{EffectRow, EvidenceRow, ParameterRow};
+use crate::physics::Chance;
+use crate::recording::effect_name;
 
 /// The row of what is `named`.
 pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
@@ -29,7 +31,7 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
     let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp() + alias);
     EffectRow {
         name: named.name,
-        sentence: format!("{sentence}{}", also_seen(&images)),
+        sentence: format!("{sentence}{}{}", also_seen(&images), beside_included(data, named.name)),
         probability,
         alias_risk: alias * probability,
         also_possible,
@@ -40,6 +42,18 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
             ln_bayes_factor: named.ln_bayes,
             detectability_rho: rho,
         },
+    }
+}
+
+/// What a sentence says besides, where the camera includes the effect called `name` with a value.
+fn beside_included(data: &Data, name: &str) -> &'static str {
+    let is_included = data.described.effects.iter().any(|text| effect_name(text) == name);
+    match is_included {
+        true if data.effect(name).is_some_and(|effect| effect.chance != Chance::None) => {
+            " There is more of it than the camera includes."
+        }
+        true => " This is beside what the camera includes of it.",
+        false => "",
     }
 }
 

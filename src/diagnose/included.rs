@@ -36,8 +36,7 @@ impl Unpredicted {
             })
         };
         let least = |one: [f64; 4], other: [f64; 4]| std::array::from_fn(|n| one[n].min(other[n]));
-        let [phase_rad, time_s, relative, bits] =
-            recordings.map(strengths).reduce(least).unwrap_or_default();
+        let [phase_rad, time_s, relative, bits] = recordings.map(strengths).reduce(least).unwrap_or_default();
         // Bits are whole numbers of a few.
         Self { jitter: [phase_rad, time_s], square: relative * relative, bits_cut: bits as u32 }
     }

@@ -14,8 +14,8 @@ use super::noise::Noise;
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::Piece;
 use super::random::{
-    self, EXCESS_NOISE, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms, of_name, random_effect,
-    two_jitters, words,
+    self, EXCESS_NOISE, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms, of_name,
+    random_effect, two_jitters, words,
 };
 use super::search::{Found, Named, tolerated};
 use super::searched::{InProportion, Searched, searched};

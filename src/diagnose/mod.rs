@@ -28,8 +28,8 @@ mod grid;
 mod held_frames;
 mod held_out;
 mod images;
-mod included;
 mod in_order;
+mod included;
 mod jitters;
 mod judge;
 mod lamps;
@@ -90,7 +90,7 @@ pub use profiles::{Point, Profile};
 pub use search::{Found, Named};
 pub use seen::Agreement;
 pub use simpler::Simpler;
-pub use verdict::{Answer, Diagnosis, EffectRow, HeldOutRow, LocatedRow, diagnose};
+pub use verdict::{Answer, Diagnosis, EffectRow, HeldOutRow, LocatedRow, RuledOut, diagnose};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise, and what it includes of noise and errors at random.
 pub fn stated_noise(data: &Data) -> Noise {

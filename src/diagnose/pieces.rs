@@ -4,6 +4,7 @@ use super::data::Data;
 use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
 use crate::physics::{Active, Chance, EFFECTS, Effect, Parameter, effects};
+use crate::recording::BASELINE;
 
 /// An effect at certain values, in some of the recordings.
 #[derive(Debug, Clone)]
@@ -174,11 +175,11 @@ pub const OF_NEIGHBOURS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "later
 /// Effects by which pixels disturb others.
 pub const OF_OTHER_PIXELS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lens_scatter"];
 
-/// All candidates that `data` could need: those of the registry that its camera does not include.
+/// All candidates that `data` could need: those of the registry that its camera does not include wholly. What it includes with a value may have another one.
 pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
     let included = |effect: &Effect| {
-        data.camera.includes(effect.name)
-            || effect.name == "axial_motion" && data.camera.includes(crate::recording::AXIAL_MOTION)
+        let by_name = BASELINE.iter().find(|(name, _)| *name == effect.name);
+        by_name.is_some_and(|(_, included)| data.camera.included_physics.iter().any(|name| name == included))
     };
     EFFECTS
         .iter()

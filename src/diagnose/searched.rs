@@ -32,12 +32,7 @@ pub struct InProportion {
 
 /// Searches `data`, to which `baseline` was fitted without any effect, again where single pixels have more noise than was `stated`, and where frames share
 /// errors. The forms of effects that the camera includes may leave chi squared `of_included`.
-pub fn searched(
-    data: &Data,
-    baseline: Fit,
-    stated: Noise,
-    of_included: f64,
-) -> (Searched, InProportion) {
+pub fn searched(data: &Data, baseline: Fit, stated: Noise, of_included: f64) -> (Searched, InProportion) {
     let mut searched = search(data, baseline, stated, of_included);
     let mut in_proportion = InProportion::default();
     for _ in 0..NOISE_STEPS {
@@ -45,8 +40,7 @@ pub fn searched(
             break;
         }
         let more = beyond(data, &searched.found.fit, searched.noise, stated);
-        in_proportion =
-            InProportion { ln_bayes: more.in_proportion, square_sigma: more.square_sigma };
+        in_proportion = InProportion { ln_bayes: more.in_proportion, square_sigma: more.square_sigma };
         searched = search(data, unfitted(data, more.noise), more.noise, of_included);
     }
     let beside = beside_jitter(data, searched.noise, &searched.locations[1], of_included);

@@ -98,6 +98,7 @@ pub struct EvidenceRow {
 pub struct RuledOut {
     pub name: &'static str,
     pub by: String,
+    pub share: f64,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -312,27 +313,29 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.4e}").parse().unwrap_or(value)
 }
 
-/// Every other candidate, and what speaks against it.
+/// Every other candidate, and what speaks against it; what comes nearest first. A share is that of all that is explained, or that stands out.
 fn ruled_out(judgement: &Judgement) -> Vec<RuledOut> {
     let Judgement { found, named, verdict, .. } = judgement;
     let best = found.alone.iter().map(|alone| alone.chi2).fold(0.0, f64::max);
+    let explained = found.baseline.counted() - judgement.fit.counted();
+    let places = judgement.places.iter().filter(|place| !place.is_random).map(|place| place.chi2.0);
+    let all = places.fold(best.max(explained), f64::max).max(1.0);
     let others = found.alone.iter().filter(|alone| {
         !named
             .iter()
             .any(|named| named.name == alone.name || named.rivals.iter().any(|rival| rival == alone.name))
     });
-    others
+    let mut rows: Vec<RuledOut> = others
         .filter(|alone| !found.invisible.contains(&alone.name))
         .map(|&Alone { name, chi2, degrees, ln_bayes }| {
-            let by = if *verdict == Verdict::Clean || ln_bayes < 0.0 {
-                format!("no trace: chi squared {chi2:.1} for {degrees} numbers")
-            } else {
-                format!(
-                    "alone it takes {:.0} % of what is best, and leaves the rest",
-                    100.0 * chi2 / best.max(1.0)
-                )
+            let share = if *verdict == Verdict::Clean || ln_bayes < 0.0 { 0.0 } else { chi2 / all };
+            let by = match share > 0.0 {
+                false => format!("no trace: chi squared {chi2:.1} for {degrees} numbers"),
+                true => format!("alone it takes {:.0} % of it, and leaves the rest", (100.0 * share).floor()),
             };
-            RuledOut { name, by }
+            RuledOut { name, by, share: rounded(share) }
         })
-        .collect()
+        .collect();
+    rows.sort_by(|one, other| other.share.total_cmp(&one.share));
+    rows
 }

@@ -2,6 +2,7 @@
 
 mod curves;
 mod page;
+mod paragraph;
 mod text;
 
 pub use page::diagnosis_page;

@@ -1,7 +1,8 @@
 //! A diagnosis as a page that needs nothing else: the verdict, maps and curves before and after, the evidence.
 
 use super::curves::curve;
-use super::text::{paragraph, probability};
+use super::paragraph::paragraph;
+use super::text::probability;
 use crate::diagnose::{Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
 use crate::report::pixel_image::png_data_uri;
@@ -72,10 +73,10 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
                         vec![
                             row.name.clone(),
                             format!("{:.6}", row.value),
-                            if row.at_bound {
-                                "at its bound".to_owned()
-                            } else {
-                                format!("{:.2e}", row.sigma)
+                            match row.sigma > 0.0 {
+                                _ if row.at_bound => "at its bound".to_owned(),
+                                true => format!("{:.2e}", row.sigma),
+                                false => "not fitted".to_owned(),
                             },
                             row.unit.to_owned(),
                         ]

@@ -1,6 +1,7 @@
 //! A diagnosis in a screenful.
 
-use crate::diagnose::{Answer, Diagnosis, EffectRow, HeldOutRow};
+use super::paragraph::paragraph;
+use crate::diagnose::{Diagnosis, HeldOutRow};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -39,7 +40,9 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         for row in effect.parameters.iter().take(3 * MOST) {
             let unit = if row.unit == "1" { String::new() } else { format!(" {}", row.unit) };
             let bound = if row.at_bound { ", at its bound" } else { "" };
-            let _ = writeln!(text, "  {} = {:.6} \u{b1} {:.2e}{unit}{bound}", row.name, row.value, row.sigma);
+            // What is a choice, or was not fitted, is not known to some accuracy.
+            let known_to = if row.sigma > 0.0 { format!(" \u{b1} {:.2e}", row.sigma) } else { String::new() };
+            let _ = writeln!(text, "  {} = {:.6}{known_to}{unit}{bound}", row.name, row.value);
         }
         let more = effect.parameters.len().saturating_sub(3 * MOST);
         if more > 0 {
@@ -110,28 +113,4 @@ fn distance(held: &HeldOutRow) -> String {
     let [before_mm, after_mm] =
         [held.distance_rms_m_before, held.distance_rms_m_after].map(|metres| 1e3 * metres);
     format!(", distance of a set {before_mm:.2} -> {after_mm:.2} mm RMS")
-}
-
-/// What was found, in one paragraph.
-pub fn paragraph(answer: &Answer) -> String {
-    let names = |effects: &[EffectRow]| {
-        effects.iter().map(|effect| effect.sentence.clone()).collect::<Vec<_>>().join(" ")
-    };
-    let place = answer.located.first().map_or("none", |row| row.coordinate);
-    match answer.verdict {
-        "clean" => "Simulation and recordings agree within the noise.".to_owned(),
-        "unexplained" => format!(
-            "The recordings differ from the simulation, over {place}, and no effect that is known here explains it."
-        ),
-        "partly_explained" => {
-            let is_bounded =
-                answer.effects.iter().flat_map(|effect| &effect.parameters).any(|row| row.at_bound);
-            let left = match is_bounded {
-                true => "A value came to its bound: there is more of it, or something else.",
-                false => "Something else is left.",
-            };
-            format!("{} {left}", names(&answer.effects))
-        }
-        _ => names(&answer.effects),
-    }
 }

@@ -1,0 +1,89 @@
+//! What was found, in one paragraph: the physics, where it shows, by what evidence, and what comes nearest and is not it.
+
+use crate::diagnose::{Answer, EffectRow, RuledOut};
+
+/// So many coordinates, and so many effects that come near, are told.
+const TOLD: usize = 3;
+/// An effect comes near that would explain this share of what there is.
+const NEAR: f64 = 0.1;
+
+/// `answer` in one paragraph.
+pub fn paragraph(answer: &Answer) -> String {
+    let sentences =
+        answer.effects.iter().map(|effect| effect.sentence.as_str()).collect::<Vec<_>>().join(" ");
+    match answer.verdict {
+        "clean" => "Simulation and recordings agree within the noise.".to_owned(),
+        "unexplained" => format!(
+            "The recordings differ from the simulation{}, and no effect that is known here explains it.{}",
+            place(answer),
+            ruled_out(answer)
+        ),
+        "partly_explained" => {
+            let rows = answer.effects.iter().flat_map(|effect| &effect.parameters);
+            let left = match rows.into_iter().any(|row| row.at_bound) {
+                true => " A value came to its bound: there is more of it, or something else.",
+                false => " Something else is left.",
+            };
+            format!("{sentences}{}{left}{}", evidence(answer), ruled_out(answer))
+        }
+        _ => format!("{sentences}{}{}", evidence(answer), ruled_out(answer)),
+    }
+}
+
+/// Words in a row: `a`, `a and b`, `a, b and c`.
+fn listed(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [all @ .., last] => format!("{} and {last}", all.join(", ")),
+    }
+}
+
+/// Where it lives.
+fn place(answer: &Answer) -> String {
+    let mut coordinates: Vec<String> = Vec::new();
+    for row in &answer.located {
+        if coordinates.len() < TOLD && coordinates.iter().all(|known| known != row.coordinate) {
+            coordinates.push(row.coordinate.to_owned());
+        }
+    }
+    let most = answer.located.first().filter(|row| !row.recording.is_empty());
+    let most = most.map_or_else(String::new, |row| format!(", most in {}", row.recording));
+    if coordinates.is_empty() { String::new() } else { format!(" over {}{most}", listed(&coordinates)) }
+}
+
+/// What speaks for the effects.
+fn evidence(answer: &Answer) -> String {
+    let of = |effect: &EffectRow| format!("{:.0}", effect.evidence.delta_chi2);
+    let chi2 = listed(&answer.effects.iter().map(of).collect::<Vec<_>>());
+    let numbers: usize = answer.effects.iter().map(|effect| effect.evidence.degrees_of_freedom).sum();
+    let counted = if numbers == 1 { "one number".to_owned() } else { format!("{numbers} numbers") };
+    let (it, shows, takes) =
+        if answer.effects.len() > 1 { ("They", "show", "take") } else { ("It", "shows", "takes") };
+    let where_it_is =
+        if answer.located.is_empty() { String::new() } else { format!("{shows}{}, and ", place(answer)) };
+    let held = &answer.held_out;
+    let unseen = match held.sets > 0 && held.chi2_per_dof_after < held.chi2_per_dof_before {
+        true => format!(
+            "; of what the fit has not seen, chi squared a sample goes from {:.4} to {:.4}",
+            held.chi2_per_dof_before, held.chi2_per_dof_after
+        ),
+        false => String::new(),
+    };
+    format!(" {it} {where_it_is}{takes} {chi2} of chi squared by {counted}{unseen}.")
+}
+
+/// What comes nearest and is not it, and what leaves no trace.
+fn ruled_out(answer: &Answer) -> String {
+    let near: Vec<&RuledOut> = answer.ruled_out.iter().filter(|row| row.share >= NEAR).take(TOLD).collect();
+    if near.is_empty() {
+        return String::new();
+    }
+    let names = near.iter().map(|row| format!("{} ({:.0} %)", row.name, (100.0 * row.share).floor()));
+    format!(
+        " Alone {} would explain a part of it and leave{} the rest; {} others less, or nothing.",
+        listed(&names.collect::<Vec<_>>()),
+        if near.len() == 1 { "s" } else { "" },
+        answer.ruled_out.len() - near.len()
+    )
+}

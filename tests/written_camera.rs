@@ -1,0 +1,137 @@
+//! `vuris diagnose --write-camera`: the next diagnosis has what was found, and finds nothing; what is more than that is found.
+
+mod diagnosed;
+mod recorded;
+
+use diagnosed::{names, parameter, verdict, vuris};
+use recorded::at_hand;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+const LIBRARY: &str = r#"
+[[effect]]
+name = "row_ripple"
+sentence = "The supply's ripple stands on the rows while they are read, the same in every second set."
+acts_on = "signal"
+formula = "amplitude_dn * sin(1.9 * row) * cos(PI * set)"
+[[effect.parameter]]
+name = "amplitude_dn"
+unit = "DN"
+bounds = [-50, 50]
+typical = 1
+"#;
+
+/// What is simulated, and what of it must be found.
+const FOUND: [(&str, &str); 7] = [
+    ("clock_jitter", "clock_jitter:sigma_rad=0.01"),
+    ("timing_jitter_of_frames", "timing_jitter_of_frames:sigma_s=1e-3"),
+    ("excess_noise", "excess_noise:relative=0.02"),
+    ("fixed_point", "fixed_point:bits_cut=3"),
+    ("image_lag", "image_lag:share=0.03"),
+    ("phase_step_scale", "phase_step_scale:relative=0.005"),
+    ("row_ripple", "row_ripple:amplitude_dn=2"),
+];
+
+/// A small campaign, simulated with `options`.
+fn campaign(folder: &Path, options: &[&str]) -> PathBuf {
+    let own = ["simulate", "--size", "10x8", "--out", folder.to_str().unwrap()];
+    let recordings = ["--recordings", "four-rail,four-motion,wdft-rail,wdft-motion"];
+    let (good, text) = vuris(&[&own[..], &recordings, options].concat());
+    assert!(good, "{text}");
+    folder.to_owned()
+}
+
+/// What is said of `campaign`, whose camera is written anew with what was found.
+fn verdict_and_camera(campaign: &Path, library: &str) -> Value {
+    let camera = campaign.join("camera.toml");
+    let written = ["--write-camera", camera.to_str().unwrap(), "--library", library];
+    let (good, text) =
+        vuris(&[&["diagnose", campaign.to_str().unwrap(), "--json", "-"], &written[..]].concat());
+    assert!(good, "{text}");
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn a_camera_with_what_was_found_is_clean_and_is_simulated() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = folder.path().join("library.toml");
+    std::fs::write(&library, LIBRARY).unwrap();
+    let library = library.to_str().unwrap();
+    for (name, effect) in FOUND {
+        let options = ["--seed", "4", "--library", library, "--effect", effect];
+        let campaign = campaign(&folder.path().join(name), &options);
+        let before = verdict_and_camera(&campaign, library);
+        assert_eq!(names(&before), [name], "{before:#}");
+        let after = verdict_and_camera(&campaign, library);
+        assert_eq!(after["verdict"], "clean", "{name}: {after:#}");
+        assert!(after["held_out"]["chi2_per_dof_before"].as_f64().unwrap() < 1.02, "{name}: {after:#}");
+        // Another campaign, simulated with this camera: it has what the camera says, and nothing else.
+        let camera = campaign.join("camera.toml");
+        let options = ["--seed", "5", "--library", library, "--camera", camera.to_str().unwrap()];
+        let next = self::campaign(&folder.path().join(format!("{name}-next")), &options);
+        let next = verdict_and_camera(&next, library);
+        assert_eq!(next["verdict"], "clean", "{name}: {next:#}");
+        assert!(next["held_out"]["chi2_per_dof_before"].as_f64().unwrap() < 1.02, "{name}: {next:#}");
+    }
+}
+
+/// Where the camera includes a part of it, all of a jitter is found; beside one that it includes altogether, what else is there.
+#[test]
+fn what_is_more_than_the_camera_includes_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign =
+        campaign(&folder.path().join("a"), &["--seed", "4", "--effect", "clock_jitter:sigma_rad=0.01"]);
+    let camera = campaign.join("camera.toml");
+    let described = std::fs::read_to_string(&camera).unwrap();
+    let with = |effects: &str| {
+        let text = format!("{described}effects = [{effects}]\n");
+        std::fs::write(&camera, text).unwrap();
+        verdict(&campaign)
+    };
+    let jitter = with("\"clock_jitter:sigma_rad=0.005\"");
+    assert_eq!(names(&jitter), ["clock_jitter"], "{jitter:#}");
+    let (value, sigma) = parameter(&jitter, "sigma_rad");
+    assert!((value - 0.01).abs() < 4.0 * sigma, "{value} +- {sigma}");
+    let scale = with("\"clock_jitter:sigma_rad=0.01\", \"phase_step_scale:relative=0.02\"");
+    assert_eq!(names(&scale), ["phase_step_scale"], "{scale:#}");
+    let (value, sigma) = parameter(&scale, "relative");
+    assert!((value + 0.02).abs() < 5.0 * sigma.max(1e-4), "{value} +- {sigma}");
+}
+
+#[test]
+fn bits_that_are_there_were_not_cut_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(&folder.path().join("a"), &["--effect", "fixed_point:bits_cut=2"]);
+    let camera = campaign.join("camera.toml");
+    let described = std::fs::read_to_string(&camera).unwrap();
+    std::fs::write(&camera, format!("{described}effects = [\"fixed_point:bits_cut=3\"]\n")).unwrap();
+    let (good, text) = vuris(&["diagnose", campaign.to_str().unwrap()]);
+    assert!(!good && text.contains("bits below the 3 that camera.toml says are cut off"), "{text}");
+    assert!(text.contains("2 bits cut at most"), "{text}");
+}
+
+/// Image lag as another program makes it, whose form is not quite the registry's: what was allowed when it was found is no mismatch afterwards.
+#[test]
+fn what_an_included_form_leaves_is_no_mismatch() {
+    let Some(practice) = at_hand("VURIS_PRACTICE", "practice", "08") else { return };
+    let folder = tempfile::tempdir().unwrap();
+    for entry in std::fs::read_dir(&practice).unwrap() {
+        let path = entry.unwrap().path();
+        let there = folder.path().join(path.file_name().unwrap());
+        if path.is_dir() {
+            std::fs::create_dir(&there).unwrap();
+            for file in std::fs::read_dir(&path).unwrap() {
+                let file = file.unwrap().path();
+                std::fs::copy(&file, there.join(file.file_name().unwrap())).unwrap();
+            }
+        } else {
+            std::fs::copy(&path, &there).unwrap();
+        }
+    }
+    let library = folder.path().join("library.toml");
+    std::fs::write(&library, LIBRARY).unwrap();
+    let of = || verdict_and_camera(folder.path(), library.to_str().unwrap());
+    assert_eq!(names(&of()), ["image_lag"]);
+    let after = of();
+    assert_eq!(after["verdict"], "clean", "{after:#}");
+}
