@@ -9,6 +9,7 @@ use recorded::at_hand;
 use rewritten::{Sample, rewrite};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use vuris::physics::EFFECTS;
 
 /// A small campaign with `effects`.
 fn campaign(folder: &Path, name: &str, effects: &[&str], seed: &str) -> PathBuf {
@@ -49,6 +50,20 @@ fn clean_campaigns_are_clean_and_every_field_is_there() {
         assert!(verdict["remainder"]["share"].is_number() && verdict["provenance"].is_object());
         let chi2 = verdict["held_out"]["chi2_per_dof_before"].as_f64().unwrap();
         assert!((chi2 - 1.0).abs() < 0.02, "{chi2}");
+        // Of every effect the answer says what strength would have been seen, or why none; but for those that the camera includes.
+        let said = |name: &str| {
+            let has_it = |list: &str| verdict[list].as_array().unwrap().iter().any(|row| row["name"] == name);
+            [has_it("smallest_detectable"), has_it("invisible")]
+        };
+        for effect in EFFECTS {
+            let is_included = ["axial_motion", "inverse_square_falloff"].contains(&effect.name);
+            assert_eq!(
+                said(effect.name).iter().filter(|is_said| **is_said).count(),
+                usize::from(!is_included),
+                "{}",
+                effect.name
+            );
+        }
     }
 }
 

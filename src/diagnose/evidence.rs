@@ -96,7 +96,7 @@ pub fn tail(chi2: f64, degrees: usize) -> f64 {
 }
 
 /// Standard deviations by which 95 of 100 draws are above their mean less these.
-const POWER_SIGMAS: f64 = 1.645;
+pub const POWER_SIGMAS: f64 = 1.645;
 
 /// Evidence for an effect alone, of so many `variants` and among so many `candidates`, with this `score` and unit information.
 fn ln_bayes_alone(score: &DVector<f64>, variants: f64, candidates: usize) -> f64 {

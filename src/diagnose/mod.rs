@@ -48,6 +48,7 @@ mod periodogram;
 mod pieces;
 mod places;
 mod power;
+mod power_at_random;
 mod products;
 mod profiles;
 mod promised;

@@ -230,6 +230,21 @@ fn normal(points: &[Point], are_there: [bool; 3]) -> (Matrix3<f64>, Vector3<f64>
     (scaled, right.component_mul(&scale), scale)
 }
 
+/// Standard deviation of noise in proportion to the signal, relative, squared, as the signals of `data` tell it where the `noise` is as stated: beside more shot
+/// noise, which is nearest to it. (Read noise would have to be less than was stated.)
+pub fn square_known_to(data: &Data, noise: Noise) -> f64 {
+    let signals = || data.takes.iter().flat_map(|take| &take.signal_dn).filter(|signal| signal.is_finite());
+    let every = (signals().count() / SIGNALS).max(1);
+    let point = |&signal: &f32| {
+        let signal = f64::from(signal).max(0.0);
+        Point { signal, more: 0.0, weight: every as f64 * 0.5 * noise.weight(signal).powi(2) }
+    };
+    sigma_of_square(&signals().step_by(every).map(point).collect::<Vec<_>>(), &[0.0, 1.0, 1.0])
+}
+
+/// So many signals say how exactly noise is told by them.
+const SIGNALS: usize = 20_000;
+
 /// Standard deviation of the part of the square, beside those of the `parts` that are there; 0 where it is not.
 fn sigma_of_square(points: &[Point], parts: &[f64; 3]) -> f64 {
     let (scaled, _, scale) = normal(points, parts.map(|part| part > 0.0));

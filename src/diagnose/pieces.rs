@@ -112,7 +112,7 @@ const SMOOTH: (&str, f64) = ("adc_nonlinearity", 10.0);
 const UNLIKELY: [(&str, f64); 1] = [("encoder_offset", 10.0)];
 
 /// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
-const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
+pub const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
 
 /// How exactly the forms of effects are known: so much of what they explain may be left.
 const APPROXIMATE: f64 = 0.04;

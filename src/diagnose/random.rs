@@ -33,27 +33,34 @@ const WHITE: f64 = 3.5;
 
 /// Random errors that are none of the encoder's usual noise, nor what that shows as elsewhere; best first.
 fn unusual<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
-    let metre_rad = data.takes.first().and_then(|take| take.moments.first());
-    let metre_rad = metre_rad.map_or(1.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
-    let is_usual = |cluster: &&Cluster| {
-        let usual_sigma = match MODES[cluster.mode] {
-            "phase" => USUAL_JITTER_M * metre_rad,
-            "position" => USUAL_JITTER_M,
-            _ => 0.0,
-        };
-        cluster.level == Level::Set && cluster.sigma < usual_sigma
-    };
-    let usual = location.clusters.iter().filter(is_usual).map(|cluster| cluster.ln_bayes);
-    let of_usual = usual.fold(0.0, f64::max);
-    let least = |cluster: &Cluster| {
-        let kind = if effect_of(cluster).is_some() { CLUSTER_NATS } else { NAMELESS_NATS };
-        kind.max(of_usual)
+    let of_effects = least_of_effects(data, location);
+    let least = |cluster: &Cluster| match effect_of(cluster) {
+        Some(_) => of_effects,
+        None => of_effects.max(NAMELESS_NATS),
     };
     location
         .clusters
         .iter()
-        .filter(|cluster| cluster.ln_bayes > least(cluster) && !is_usual(cluster))
+        .filter(|cluster| cluster.ln_bayes > least(cluster) && !is_usual(data, cluster))
         .collect()
+}
+
+/// Whether an error is the encoder's usual noise.
+fn is_usual(data: &Data, cluster: &Cluster) -> bool {
+    let metre_rad = data.takes.first().and_then(|take| take.moments.first());
+    let metre_rad = metre_rad.map_or(1.0, |moment| crate::units::phase_rad(1.0, moment.frequency_hz));
+    let usual_sigma = match MODES[cluster.mode] {
+        "phase" => USUAL_JITTER_M * metre_rad,
+        "position" => USUAL_JITTER_M,
+        _ => 0.0,
+    };
+    cluster.level == Level::Set && cluster.sigma < usual_sigma
+}
+
+/// Evidence (nats) from which on random errors that an effect makes count: at least as much as the encoder's usual noise has.
+pub fn least_of_effects(data: &Data, location: &Location) -> f64 {
+    let usual = location.clusters.iter().filter(|cluster| is_usual(data, cluster));
+    usual.map(|cluster| cluster.ln_bayes).fold(CLUSTER_NATS, f64::max)
 }
 
 /// The effect of the registry that makes such errors.

@@ -13,11 +13,13 @@ use super::mismatch::Place;
 use super::next::next;
 use super::noise::Noise;
 use super::noise::measured;
-use super::pieces::OF_NEIGHBOURS;
-use super::search::Named;
+use super::pieces::{OF_NEIGHBOURS, OF_STILL_SCENES};
+use super::power_at_random::detectable_at_random;
+use super::search::{Found, Named};
 use super::settle::{outlying, with_mask};
 use super::stated_noise;
 use crate::frames::Geometry;
+use crate::physics::effects::FIXED_POINT;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -226,10 +228,14 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     // What tangents at the baseline did not show may show where other effects are.
     let is_named = |name: &str| named.iter().any(|named| named.name == name);
     let seen = |place: &Place| located(data, judgement, place);
-    let smallest = found.detectable.iter().filter_map(|row| {
-        let parameter = data.effect(row.name)?.parameters.get(row.parameter)?;
-        let value = rounded(row.value);
-        Some(Smallest { name: row.name, parameter: parameter.name, value, unit: parameter.unit })
+    let at_random = detectable_at_random(data, &judgement.locations[0], judgement.noise);
+    let rows = found.detectable.iter().map(|row| (row.name, row.parameter, row.value));
+    let rows = rows.chain(at_random.into_iter().map(|(name, value)| (name, 0, value)));
+    // Of the camera's own arithmetic every bit is seen.
+    let rows = rows.chain((data.unpredicted.bits_cut == 0).then_some((FIXED_POINT, 0, 1.0)));
+    let smallest = rows.filter_map(|(name, parameter, value)| {
+        let parameter = data.effect(name)?.parameters.get(parameter)?;
+        Some(Smallest { name, parameter: parameter.name, value: rounded(value), unit: parameter.unit })
     });
     Answer {
         format: "vuris-verdict/1",
@@ -266,7 +272,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
                 expected_rho: rounded(next.rho),
             })
             .collect(),
-        invisible: found.invisible.iter().filter(|&&name| !is_named(name)).map(|&name| invisible(name)).collect(),
+        invisible: invisible(data, found).into_iter().filter(|row| !is_named(row.name)).collect(),
         smallest_detectable: smallest.collect(),
         provenance: json!({
             "program": concat!("vuris ", env!("CARGO_PKG_VERSION")),
@@ -291,9 +297,21 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     }
 }
 
-fn invisible(name: &'static str) -> Invisible {
-    let why = "on these recordings it changes nothing that the pixels' own amplitude, phase, constant and ambient light do not absorb";
-    Invisible { name, why: why.to_owned() }
+/// What these recordings cannot show, and why.
+fn invisible(data: &Data, found: &Found) -> Vec<Invisible> {
+    let rows = |names: &[&'static str], why: &str| -> Vec<Invisible> {
+        names.iter().map(|&name| Invisible { name, why: why.to_owned() }).collect()
+    };
+    let absorbed = "on these recordings it changes nothing that the pixels' own amplitude, phase, constant and ambient light do not absorb";
+    let mut invisible = rows(&found.invisible, absorbed);
+    if !data.assumed.still_scene {
+        invisible.extend(rows(&OF_STILL_SCENES, "it is looked for in scenes that stand still alone: here, light that follows the rail says nearly the same"));
+    }
+    if data.grid.every > 1 {
+        let why = "only some rows and columns are looked at, and a pixel's neighbours make it: it is looked for in a window of the sensor where something is not explained";
+        invisible.extend(rows(&OF_NEIGHBOURS, why));
+    }
+    invisible
 }
 
 fn located(data: &Data, judgement: &Judgement, place: &Place) -> LocatedRow {
