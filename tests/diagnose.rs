@@ -313,6 +313,39 @@ fn refusals_say_what_would_be_right() {
     assert!(!good && text.contains("one campaign"), "{text}");
 }
 
+#[test]
+fn what_is_passed_over_is_said_and_other_cameras_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), "a", &[], "1");
+    let half = campaign.join("half");
+    std::fs::create_dir(&half).unwrap();
+    std::fs::copy(campaign.join("four-rail/frames.npy"), half.join("frames.npy")).unwrap();
+    let mask = campaign.join("wdft-rail/mask.npy");
+    let mut bytes = std::fs::read(&mask).unwrap();
+    if let Some(last) = bytes.last_mut() {
+        *last = 1 - *last;
+    }
+    std::fs::write(&mask, bytes).unwrap();
+    // All at full scale: a recording that says nothing.
+    rewrite(&campaign, |Sample { recording, code, .. }| if recording == 2 { 4095.0 } else { code });
+    let diagnosed = || vuris(&["diagnose", campaign.to_str().unwrap()]);
+    let (good, text) = diagnosed();
+    assert!(good, "{text}");
+    for words in [
+        "half: left out: it has frames.npy, and no recording.toml",
+        "wdft-rail: has another mask.npy than four-motion",
+        "four-sweep: says nothing: all its codes are 0, or at full scale",
+    ] {
+        assert_eq!(text.matches(words).count(), 1, "{words}: {text}");
+    }
+    let camera = std::fs::read_to_string(campaign.join("camera.toml")).unwrap();
+    let other = camera.replacen("read_noise_e = 36", "read_noise_e = 40", 1);
+    assert_ne!(camera, other);
+    std::fs::write(campaign.join("wdft-rail/camera.toml"), other).unwrap();
+    let (good, text) = diagnosed();
+    assert!(!good && text.contains("wdft-rail: has another camera.toml than four-motion"), "{text}");
+}
+
 /// The practice campaigns of the project's recordings, where they are at hand: `VURIS_PRACTICE`, or beside the repository.
 #[test]
 fn practice_campaigns_come_out_as_labelled() {

@@ -2,7 +2,7 @@
 
 use super::campaign::{recordings_in, remark_on_physics};
 use super::library::effects_in;
-use super::print::{counted, say};
+use super::print::{counted, remark, say};
 use super::progress;
 use crate::artifact::write_file;
 use crate::diagnose::{Data, Diagnosis, camera_with, diagnose};
@@ -74,23 +74,58 @@ impl Diagnose {
             if let Some(file) = &self.report {
                 write_file(file, &diagnosis_page(campaign, &diagnosis)?)?;
             }
-            match &self.json {
-                Some(file) if file == Path::new("-") => say!("{text}"),
-                Some(file) => {
-                    write_file(file, &format!("{text}\n"))?;
-                    say!("{}", diagnosis_text(campaign, &diagnosis));
-                    say!("written: {}", file.display());
-                }
-                None => say!("{}", diagnosis_text(campaign, &diagnosis)),
+            if self.json.as_deref() == Some(Path::new("-")) {
+                say!("{text}");
+                continue;
+            }
+            if let Some(file) = &self.json {
+                write_file(file, &format!("{text}\n"))?;
+            }
+            say!("{}", diagnosis_text(campaign, &diagnosis));
+            for file in [&self.json, &self.report, &self.write_camera, &self.simpler].into_iter().flatten() {
+                say!("written: {}", file.display());
             }
         }
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// The recordings in `campaign`.
+/// The recordings in `campaign`, with a remark on those that say nothing, and on masks that are not one.
 fn read(campaign: &Path, library: &[&'static Effect]) -> Result<Data> {
+    let folders = recordings_in(campaign)?;
+    for folder in unfinished_in(campaign, &folders)? {
+        remark(format_args!("{}: left out: it has frames.npy, and no recording.toml", folder.display()));
+    }
     let recordings: Vec<Recording> =
-        recordings_in(campaign)?.iter().map(|folder| Recording::open(folder)).collect::<Result<_>>()?;
-    Data::of(&recordings, library.to_vec())
+        folders.iter().map(|folder| Recording::open(folder)).collect::<Result<_>>()?;
+    let data = Data::of(&recordings, library.to_vec())?;
+    for take in data.takes.iter().filter(|take| take.signal_dn.iter().all(|signal| signal.is_nan())) {
+        remark(format_args!("{}: says nothing: all its codes are 0, or at full scale", take.name));
+    }
+    if let Some((first, others)) = recordings.split_first() {
+        for other in others.iter().filter(|other| other.mask != first.mask) {
+            remark(format_args!(
+                "{}: has another mask.npy than {}, whose mask counts for all (and where pixels clearly show something else, that)",
+                other.name, first.name
+            ));
+        }
+    }
+    Ok(data)
+}
+
+/// Folders of `campaign` that are none of its `recordings`, but have frames.
+fn unfinished_in(campaign: &Path, recordings: &[PathBuf]) -> Result<Vec<PathBuf>> {
+    if recordings == [campaign] {
+        return Ok(Vec::new());
+    }
+    let cannot = |error: std::io::Error| Problem::io(campaign, "list", &error);
+    let mut unfinished = Vec::new();
+    for entry in std::fs::read_dir(campaign).map_err(cannot)? {
+        let path = entry.map_err(cannot)?.path();
+        if path.join("frames.npy").is_file() && !recordings.contains(&path) {
+            unfinished.push(path);
+        }
+    }
+    unfinished.sort();
+    Ok(unfinished)
 }

@@ -3,11 +3,12 @@
 use super::grid::Grid;
 use super::included::Unpredicted;
 use super::places::with_places;
+use super::together::check_together;
 use crate::bench::{Course, camera_effects};
 use crate::frames::Geometry;
 use crate::physics::{Active, Effect, Moment, effects};
 use crate::problem::{Problem, Result};
-use crate::recording::{Camera, Kind, Recording};
+use crate::recording::{Camera, Recording};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -94,24 +95,7 @@ impl Data {
         let assumed =
             Assumed { camera: first.camera.is_none(), still_scene: !recordings.iter().any(has_position) };
         let geometry = first.geometry();
-        for recording in recordings {
-            if recording.geometry() != geometry || camera.geometry != geometry {
-                return Err(Problem::in_file(&recording.folder, "has another number of pixels")
-                    .expected(format_args!("{} x {}", geometry.width, geometry.height)));
-            }
-        }
-        for recording in recordings.iter().filter(|recording| recording.kind != Kind::Dark) {
-            if let Some(set) = recording.sets.iter().position(|row| row.position_m == Some(0.0)) {
-                return Err(Problem::in_file(
-                    &recording.folder.join("sets.csv"),
-                    format_args!("position_m = 0 in set {set}"),
-                )
-                .expected("a distance: light falls with its square")
-                .remedy(
-                    "correct the encoder's zero, or leave the cell empty in all sets where it is not known",
-                ));
-            }
-        }
+        check_together(recordings, &camera)?;
         let sees_target = |pixel: usize| !assumed.still_scene && first.sees_target(pixel);
         let target: Vec<bool> = (0..geometry.pixels()).map(sees_target).collect();
         let frames = recordings.iter().map(|recording| recording.raw.codes().len() / geometry.pixels()).sum();

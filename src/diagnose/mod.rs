@@ -68,6 +68,7 @@ mod steady;
 mod steps;
 mod swings;
 mod tamed;
+mod together;
 mod tried;
 mod verdict;
 mod vote;

@@ -1,0 +1,40 @@
+//! Whether recordings can be looked at together.
+
+use crate::problem::{Problem, Result};
+use crate::recording::{Camera, Kind, Recording};
+
+/// Refuses recordings that are not of one camera, or whose target was at no distance.
+///
+/// # Errors
+/// Another number of pixels than the first recording or the `camera` has; another description of the camera; a position of 0.
+pub fn check_together(recordings: &[Recording], camera: &Camera) -> Result<()> {
+    let Some(first) = recordings.first() else { return Ok(()) };
+    let geometry = first.geometry();
+    for recording in recordings {
+        if recording.geometry() != geometry || camera.geometry != geometry {
+            return Err(Problem::in_file(&recording.folder, "has another number of pixels")
+                .expected(format_args!("{} x {}", geometry.width, geometry.height)));
+        }
+    }
+    if let Some(other) = recordings.iter().find(|recording| recording.camera != first.camera) {
+        return Err(Problem::in_file(
+            &other.folder,
+            format_args!("has another camera.toml than {}", first.name),
+        )
+        .expected("recordings of one camera, described once")
+        .remedy("keep camera.toml beside the recordings' folders alone, or diagnose them one by one"));
+    }
+    for recording in recordings.iter().filter(|recording| recording.kind != Kind::Dark) {
+        if let Some(set) = recording.sets.iter().position(|row| row.position_m == Some(0.0)) {
+            return Err(Problem::in_file(
+                &recording.folder.join("sets.csv"),
+                format_args!("position_m = 0 in set {set}"),
+            )
+            .expected("a distance: light falls with its square")
+            .remedy(
+                "correct the encoder's zero, or leave the cell empty in all sets where it is not known",
+            ));
+        }
+    }
+    Ok(())
+}
