@@ -288,6 +288,9 @@ fn what_is_unexplained_is_named_when_the_user_gives_its_formula() {
         ("row_ripple", "image_lag", "no other effect has"),
         ("\"signal\"", "\"sound\"", "signal, phase, amplitude or ambient"),
         ("sin(", "sin((", "formula"),
+        ("amplitude_dn * sin", "amplitude_dn + sin", "0 where every strength is 0"),
+        ("cos(PI * set)", "0", "typical values make something of"),
+        ("formula = \"amplitude_dn * ", "formula = \"", "does not use the parameter amplitude_dn"),
     ] {
         std::fs::write(&library, LIBRARY.replacen(from, to, 1)).unwrap();
         let (good, text) = vuris(&arguments);

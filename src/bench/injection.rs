@@ -115,7 +115,7 @@ mod tests {
             ("image_lag:share=0.9", "image_lag: share = 0.9\n  expected: a number from 0 to 0.5"),
             ("image_lag:share=NaN", "image_lag: share = NaN"),
             ("imagelag", "way out: did you mean image_lag?"),
-            ("fixed_point:bits_cut=2.5", "bits_cut = 2.5\n  expected: a whole number from 0 to 6 bit"),
+            ("fixed_point:bits_cut=2.5", "bits_cut = 2.5\n  expected: a whole number from 0 to 8 bit"),
             ("image_lag:share", "parameter=value"),
         ] {
             let refusal = injection(text).unwrap_err().to_string();

@@ -1,7 +1,7 @@
 //! Effects that a user adds as formulas in a TOML file.
 
 use crate::fields::{self, Fields};
-use crate::physics::{Act, Chance, EFFECTS, Effect, Formula, Parameter, Target};
+use crate::physics::{Act, COORDINATES, Chance, EFFECTS, Effect, Formula, Parameter, Target};
 use crate::problem::{Problem, Result};
 
 /// Reads the text of the file called `file`: `[[effect]]` with name, sentence, `acts_on` (signal, phase, amplitude, ambient), formula, and
@@ -51,16 +51,20 @@ fn effect(fields: &Fields) -> Result<Effect> {
     let formula = Formula::new(target, fields.text("formula", "a formula")?, &names)
         .map_err(|problem| fields.refuse("formula", problem.found()))?;
     let place = target.place();
-    let strengths_off: Vec<f64> = parameters.iter().map(|parameter| parameter.off).collect();
-    let values = |values: &[f64]| PROBES.map(|probe| probed(&formula, values, probe));
-    if values(&strengths_off).iter().any(|value| value.is_some_and(|value| value != 0.0)) {
+    let values = |of: fn(&Parameter) -> f64| -> Vec<Option<f64>> {
+        let values: Vec<f64> = parameters.iter().map(of).collect();
+        PLACES.iter().map(|place| formula.value(&values, |number| place[number], &mut Vec::new())).collect()
+    };
+    let is_off = |value: &Option<f64>| value.is_none_or(|value| value == 0.0);
+    if !values(|parameter| parameter.off).iter().all(is_off) {
         return Err(fields
             .refuse("formula", "a formula that is 0 where every strength is 0: there the effect is off"));
     }
-    let typical: Vec<f64> = parameters.iter().map(|parameter| parameter.typical).collect();
-    if values(&typical).iter().all(Option::is_none) {
+    // One that is a number nowhere among these may be one elsewhere.
+    let typical = values(|parameter| parameter.typical);
+    if typical.iter().any(Option::is_some) && typical.iter().all(is_off) {
         return Err(
-            fields.refuse("formula", "a formula that is a number with the typical values of its parameters")
+            fields.refuse("formula", "a formula that its parameters' typical values make something of")
         );
     }
     Ok(Effect {
@@ -75,13 +79,12 @@ fn effect(fields: &Fields) -> Result<Effect> {
     })
 }
 
-/// Places at which a formula is tried: what coordinates are there is of no meaning, but that they differ.
-const PROBES: [f64; 4] = [0.31, 0.77, 1.9, 3.3];
-
-/// The value of a `formula` at one of them.
-fn probed(formula: &Formula, values: &[f64], probe: f64) -> Option<f64> {
-    formula.value(values, |number| probe * (number + 1) as f64, &mut Vec::new())
-}
+/// Places at which a formula is tried: its coordinates, in their order.
+const PLACES: [[f64; COORDINATES]; 3] = [
+    [0.31, 1.7, 1.2, 1.21, 0.0, 0.0, 4.0, 1.0, 0.4, 3.0, 5.0, 310.0, 120.0],
+    [2.9, 4.6, 2.3, 2.29, -1.7, 3.0, 5.0, 42.0, 17.0, 11.0, 2.0, 905.0, 33.0],
+    [5.2, 0.4, 3.1, 3.12, 1.9, 2.0, 5.0, 303.0, 140.0, 97.0, 131.0, 2030.0, 410.0],
+];
 
 fn parameter(fields: &Fields) -> Result<Parameter> {
     let name = leaked(fields.text("name", "the parameter's name")?);

@@ -5,7 +5,7 @@
 
 use super::injection::{injection, injection_among};
 use crate::physics::{Active, Effect, effects};
-use crate::problem::{Problem, Result};
+use crate::problem::Result;
 use crate::spec::Pipeline;
 
 const PARAMETER: &str = "pipeline";
@@ -14,17 +14,13 @@ const PARAMETER: &str = "pipeline";
 /// camera whose codes have `adc_bits` bits: bits_cut is what these have more than `sensor.adc_bits`, and 0 where they have no more.
 ///
 /// # Errors
-/// As [`injection_among`]; a specification that cannot be read; more bits cut than the effect allows.
+/// As [`injection_among`]; a specification that cannot be read.
 pub fn injection_for(text: &str, adc_bits: u32, library: &[&'static Effect]) -> Result<Active> {
     let Some(specification) = specification_of(text) else { return injection_among(text, library) };
     let taken = Pipeline::named(specification)?.sensor.adc_bits;
     let bits = adc_bits.saturating_sub(taken);
-    injection(&format!("{}:bits_cut={bits}", effects::FIXED_POINT)).map_err(|_| {
-        let found = format!("{text}: {specification} takes {taken} bits of the camera's {adc_bits}");
-        Problem::at("--effect", found)
-            .expected("a specification that leaves out 6 bits at most")
-            .remedy("set sensor.adc_bits of the specification nearer to adc_bits of camera.toml")
-    })
+    // A camera has 16 bits at most, and a specification takes 8 at least.
+    injection(&format!("{}:bits_cut={bits}", effects::FIXED_POINT))
 }
 
 /// The specification that `text` names, where it does.
@@ -58,13 +54,8 @@ mod tests {
             Pipeline::named("vuris").unwrap().adapted("narrow", |s| s.sensor.adc_bits = 8).unwrap().to_toml();
         std::fs::write(&narrow, text).unwrap();
         let text = format!("fixed_point:pipeline={}", narrow.display());
-        assert_eq!(injection_for(&text, 14, &[]).unwrap().values, [6.0]);
+        assert_eq!(injection_for(&text, 16, &[]).unwrap().values, [8.0]);
         for (text, adc_bits, words) in [
-            (
-                text.as_str(),
-                15,
-                "takes 8 bits of the camera's 15\n  expected: a specification that leaves out 6 bits at most",
-            ),
             ("fixed_point:pipeline=none.toml", 12, "none.toml"),
             ("fixed_point:pipeline=none.toml", 12, "one of the presets vuris"),
             ("fixed_point:bits_cut=1,pipeline=vuris", 12, "fixed_point has no parameter pipeline"),

@@ -2,10 +2,11 @@
 
 use super::columns::Column;
 use super::data::Data;
+use super::effect_row::in_all;
 use super::fit::Fit;
 use super::judge::Judgement;
 use super::noise::{Noise, ROUNDING_DN2};
-use super::random::EXCESS_NOISE;
+use crate::physics::Active;
 use crate::recording::{BASELINE, Camera, effect_name};
 
 /// Closer to 1, in standard deviations, a share is 1.
@@ -34,6 +35,10 @@ pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
             camera.included_physics.push((*included).to_owned());
             continue;
         }
+        // A name without values would stand for the usual ones.
+        if (Active { effect: piece.effect, values: piece.values.clone() }).is_off() {
+            continue;
+        }
         let values: Vec<String> = piece
             .effect
             .parameters
@@ -48,14 +53,13 @@ pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
         camera.effects.push(format!("{}:{}{only}", piece.effect.name, values.join(",")));
     }
     for (name, strength) in &judgement.random {
-        // What was found of it is all that there is, but for noise beside what is included.
-        let value = match *name {
-            EXCESS_NOISE => strength.value.hypot(data.unpredicted.square.sqrt()),
-            _ => strength.value,
-        };
+        let value = in_all(data, name, *strength).value;
         camera.effects.retain(|text| effect_name(text) != *name);
         let parameter = crate::physics::effects::named(name).and_then(|effect| effect.parameters.first());
-        let told = parameter.map(|parameter| format!("{name}:{}={value:?}", parameter.name));
+        let told = parameter.map(|parameter| {
+            let value = value.clamp(parameter.bounds.0, parameter.bounds.1);
+            format!("{name}:{}={value:?}", parameter.name)
+        });
         camera.effects.extend(told);
     }
     camera

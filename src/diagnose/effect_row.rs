@@ -7,9 +7,11 @@ use super::images::{Image, also_seen, images, spread};
 use super::judge::Judgement;
 use super::lamps::FLICKER;
 use super::pieces::Piece;
+use super::random::{EXCESS_NOISE, Strength};
 use super::search::Named;
 use super::verdict::{EffectRow, EvidenceRow, ParameterRow};
 use crate::physics::Chance;
+use crate::physics::effects::FIXED_POINT;
 use crate::recording::effect_name;
 
 /// The row of what is `named`.
@@ -45,11 +47,23 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
     }
 }
 
+/// The `strength` of the random effect called `name`, with what the camera includes of it.
+pub fn in_all(data: &Data, name: &str, strength: Strength) -> Strength {
+    // Of jitters all is found; of noise, what there is beside the included one.
+    if name != EXCESS_NOISE || data.unpredicted.square == 0.0 {
+        return strength;
+    }
+    let value = strength.value.hypot(data.unpredicted.square.sqrt());
+    Strength { value, sigma: strength.sigma * strength.value / value }
+}
+
 /// What a sentence says besides, where the camera includes the effect called `name` with a value.
 fn beside_included(data: &Data, name: &str) -> &'static str {
     let is_included = data.described.effects.iter().any(|text| effect_name(text) == name);
     match is_included {
-        true if data.effect(name).is_some_and(|effect| effect.chance != Chance::None) => {
+        true if name == FIXED_POINT
+            || data.effect(name).is_some_and(|effect| effect.chance != Chance::None) =>
+        {
             " There is more of it than the camera includes."
         }
         true => " This is beside what the camera includes of it.",
@@ -88,12 +102,15 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) 
         // A random effect is not fitted with the others: its strength is from what they leave.
         let random = judgement.random.iter().copied().find(|(random, _)| *random == name);
         let parameter = data.effect(name).and_then(|effect| effect.parameters.first());
-        rows.extend(random.zip(parameter).map(|((_, strength), parameter)| ParameterRow {
-            name: parameter.name.to_owned(),
-            value: strength.value,
-            sigma: strength.sigma,
-            unit: parameter.unit,
-            at_bound: false,
+        rows.extend(random.zip(parameter).map(|((_, strength), parameter)| {
+            let Strength { value, sigma } = in_all(data, name, strength);
+            ParameterRow {
+                name: parameter.name.to_owned(),
+                value,
+                sigma,
+                unit: parameter.unit,
+                at_bound: false,
+            }
         }));
     }
     rows

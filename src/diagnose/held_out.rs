@@ -68,8 +68,14 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     // Jitter predicts no sample.
     let is_same = after.fit.pieces.is_empty() && after.noise == before.noise;
     let old = if is_same { new.clone() } else { predict(before) };
-    let old = with_jitters(old, before.jitters);
-    let new = with_jitters(new, after.jitters);
+    // What the camera includes is as strong as it says; what is found, as the other folds show it.
+    let [phase_rad, time_s] = data.unpredicted.jitter;
+    let old = with_jitter(old, (phase_rad, time_s));
+    let is_included = data.unpredicted.jitter.map(|sigma| sigma > 0.0);
+    let new = match after.has_jitters() {
+        true => with_jitters(new, [0, 1].map(|kind| after.jitters[kind] || is_included[kind])),
+        false => with_jitter(new, (phase_rad, time_s)),
+    };
     // Frames of a set are not predicted independently, blocks of the image are; what is off at random by frames is not of a block.
     let of_blocks = |(old, new): (&Seen, &Seen)| -> Vec<f64> {
         let blocks = BLOCKS * new.fold / HALVES..BLOCKS * (new.fold + 1) / HALVES;
@@ -106,13 +112,21 @@ fn with_jitters(mut sets: Vec<Seen>, exist: [bool; 2]) -> Vec<Seen> {
         let mut others = Jitters::default();
         let of_others = sets.iter().filter(|set| set.fold != fold).flat_map(|set| &set.jitters);
         of_others.for_each(|frame| others.add(*frame));
-        let (phase_rad, time_s) = others.likeliest(exist);
-        for set in sets.iter_mut().filter(|set| set.fold == fold) {
-            for frame in &set.jitters {
-                let (square, ln_determinant) = frame.explained(phase_rad, time_s);
-                set.chi2 -= square;
-                set.unlikely += ln_determinant - square;
-            }
+        let strengths = others.likeliest(exist);
+        let of_fold = sets.iter().filter(|set| set.fold == fold).cloned().collect();
+        let mut with = with_jitter(of_fold, strengths).into_iter();
+        sets.iter_mut().filter(|set| set.fold == fold).zip(&mut with).for_each(|(set, with)| *set = with);
+    }
+    sets
+}
+
+/// With random errors of frames of these standard deviations: of the phase, rad, and of the time, s.
+fn with_jitter(mut sets: Vec<Seen>, (phase_rad, time_s): (f64, f64)) -> Vec<Seen> {
+    for set in &mut sets {
+        for frame in &set.jitters {
+            let (square, ln_determinant) = frame.explained(phase_rad, time_s);
+            set.chi2 -= square;
+            set.unlikely += ln_determinant - square;
         }
     }
     sets

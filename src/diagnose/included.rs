@@ -3,12 +3,15 @@
 
 use super::data::Data;
 use super::fit::{Fit, fit};
+use super::location::locate;
+use super::mismatch::{Place, places};
 use super::noise::Noise;
+use super::pass::DISBELIEF;
 use super::pieces::tolerance;
 use super::random::{EXCESS_NOISE, JITTERS, RandomEffect};
 use super::set_errors::Jitter;
 use crate::physics::{Active, effects};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A random effect is more than the camera includes where it is stronger by so many standard deviations: what was found in one campaign, and is included since, is
 /// found again in the next one as exactly as that shows it.
@@ -32,7 +35,9 @@ impl Unpredicted {
         let strengths = |effects: &[Active]| {
             names.map(|name| {
                 let of_name = effects.iter().filter(|active| active.effect.name == name);
-                of_name.map(|active| active.values[0]).fold(0.0, f64::hypot)
+                let values = of_name.map(|active| active.values[0]);
+                // What is there twice has the same deviates, and a bit is cut off once.
+                if name == effects::FIXED_POINT { values.fold(0.0, f64::max) } else { values.sum() }
             })
         };
         let least = |one: [f64; 4], other: [f64; 4]| std::array::from_fn(|n| one[n].min(other[n]));
@@ -55,14 +60,42 @@ impl Unpredicted {
     }
 }
 
-/// Chi squared that the forms of the effects which the camera of `data` includes may leave of what these explain, each beside the others, in the fit `baseline`: it
-/// is no mismatch, as it is none where such an effect is found.
-pub fn left_by_forms(data: &Data, baseline: &Fit, noise: Noise) -> f64 {
-    let included: BTreeSet<&str> =
-        data.takes.iter().flat_map(|take| &take.included).map(|active| active.effect.name).collect();
-    let left = |name: &str| {
-        let without = fit(&data.without_included(name), Some(baseline), Vec::new(), noise, &|_| true);
-        tolerance(name) * (without.counted() - baseline.counted()).max(0.0)
-    };
-    included.into_iter().map(left).sum()
+/// What the effects that a camera includes explain, beside each other: their forms may leave a part of it, and that is no mismatch, as it is none where such an effect is
+/// found.
+#[derive(Debug, Clone, Default)]
+pub struct Forms {
+    /// Chi squared that they may leave in all.
+    pub tolerated: f64,
+    /// The same of each coordinate in which one stands out that is not included.
+    of_coordinates: BTreeMap<&'static str, f64>,
+}
+
+impl Forms {
+    /// Of the effects that the camera of `data` includes, whose simulation is the fit `baseline`.
+    pub fn of(data: &Data, baseline: &Fit, noise: Noise) -> Self {
+        let mut forms = Self::default();
+        let included: BTreeSet<&str> =
+            data.takes.iter().flat_map(|take| &take.included).map(|active| active.effect.name).collect();
+        for name in included {
+            let data = data.without_included(name);
+            let without = fit(&data, Some(baseline), Vec::new(), noise, &|_| true);
+            let explained = (without.counted() - baseline.counted()).max(0.0);
+            forms.tolerated += tolerance(name) * explained;
+            let mut most = BTreeMap::<&str, f64>::new();
+            for place in places(&data, &locate(&data, &without, noise)) {
+                let of_coordinate = most.entry(place.coordinate).or_default();
+                *of_coordinate = of_coordinate.max(place.excess().min(explained));
+            }
+            for (coordinate, excess) in most {
+                *forms.of_coordinates.entry(coordinate).or_default() += tolerance(name) * excess;
+            }
+        }
+        forms
+    }
+
+    /// Whether what stands out at `place` is no more than they may leave there.
+    pub fn may_leave(&self, place: &Place) -> bool {
+        let tolerated = self.of_coordinates.get(place.coordinate).copied().unwrap_or(0.0);
+        !place.is_random && place.excess() < DISBELIEF * tolerated
+    }
 }

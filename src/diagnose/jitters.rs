@@ -22,6 +22,10 @@ pub struct Frame {
     pub number: (usize, usize),
     /// The target's velocity, m/s.
     pub velocity_m_s: f64,
+    /// Where it was when the set began, m.
+    pub position_m: f64,
+    /// The set's phase offset, rad.
+    pub offset_rad: f64,
 }
 
 /// What all frames say.
@@ -68,9 +72,17 @@ impl Frame {
         set: usize,
         moment: &Moment,
     ) -> Self {
-        let &Moment { velocity_m_s, frame: number, frames, .. } = moment;
-        let number = (number, frames);
-        let mut seen = Self { phase: (0.0, 0.0), time: (0.0, 0.0), shared: 0.0, set, number, velocity_m_s };
+        let &Moment { velocity_m_s, position_m, offset_rad, frame: number, frames, .. } = moment;
+        let mut seen = Self {
+            phase: (0.0, 0.0),
+            time: (0.0, 0.0),
+            shared: 0.0,
+            set,
+            number: (number, frames),
+            velocity_m_s,
+            position_m,
+            offset_rad,
+        };
         let tangents = frame.own[1].iter().zip(&frame.position);
         for ((root, residual), (phase, position)) in roots.iter().zip(residuals).zip(tangents) {
             let (phase, time) = (root * phase, root * velocity_m_s * position);
@@ -208,6 +220,8 @@ mod tests {
                 set: 0,
                 number: (0, 1),
                 velocity_m_s: 1.0,
+                position_m: 1.0,
+                offset_rad: 0.0,
             });
         }
         jitters
@@ -244,7 +258,16 @@ mod tests {
     #[test]
     fn evidence_is_the_integral_over_both_errors() {
         let (phase, time, shared) = ((1.3, 2.0), (-0.4, 1.5), 0.7);
-        let frame = Frame { phase, time, shared, set: 0, number: (0, 1), velocity_m_s: 1.0 };
+        let frame = Frame {
+            set: 0,
+            number: (0, 1),
+            velocity_m_s: 1.0,
+            position_m: 1.0,
+            offset_rad: 0.0,
+            phase,
+            time,
+            shared,
+        };
         let (a, b) = (0.8, 0.6);
         let (mut sum, step) = (0.0, 0.02);
         for (x, y) in (-400..=400).flat_map(|x| (-400..=400).map(move |y| (x, y))) {

@@ -6,7 +6,7 @@ use super::data::Data;
 use super::finished::finished;
 use super::fit::{Fit, fit};
 use super::held_out::Predictor;
-use super::included::left_by_forms;
+use super::included::Forms;
 use super::location::{LOCATED_NATS, Location};
 use super::mismatch::{Place, places};
 use super::misnamed::misnamed;
@@ -47,8 +47,8 @@ pub struct Judgement {
     pub noise: Noise,
     /// Noise that rows, columns or frames share besides, in words.
     pub shared_noise: Option<String>,
-    /// Which of the jitters the camera includes.
-    pub jitters: [bool; 2],
+    /// What the camera states or includes of noise and errors at random that is not there, in words.
+    pub overstated: Vec<String>,
 }
 
 impl Judgement {
@@ -57,22 +57,21 @@ impl Judgement {
         let excess = self.random.iter().find(|(name, _)| *name == EXCESS_NOISE);
         let square = excess.map_or(0.0, |(_, strength)| strength.value.powi(2));
         let noise = Noise { square: (self.noise.square - square).max(0.0), ..self.noise };
-        Predictor { fit: &self.found.baseline, noise, reference: self.noise, jitters: self.jitters }
+        Predictor { fit: &self.found.baseline, noise, reference: self.noise, jitters: [false; 2] }
     }
 
     /// The model with everything that is asserted.
     pub fn with(&self) -> Predictor<'_> {
-        let is_found = |jitter: usize| self.random.iter().any(|(name, _)| *name == JITTERS[jitter]);
-        let jitters = [0, 1].map(|jitter| self.jitters[jitter] || is_found(jitter));
+        let jitters = JITTERS.map(|jitter| self.random.iter().any(|(name, _)| *name == jitter));
         Predictor { fit: &self.fit, noise: self.noise, reference: self.noise, jitters }
     }
 }
 
 /// Diagnoses `data`, whose noise is `stated`, and to which `baseline` was fitted without any effect.
 pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
-    let of_included = left_by_forms(data, &baseline, stated);
+    let forms = Forms::of(data, &baseline, stated);
     let (Searched { found, locations: [baseline, end], noise }, in_proportion) =
-        searched(data, baseline, stated, of_included);
+        searched(data, baseline, stated, forms.tolerated);
     // What random errors let appear among the columns is not asserted.
     let inflation = inflation(data, &end);
     let unlike = misnamed(data, &found, &baseline, noise, inflation);
@@ -92,19 +91,22 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
 
     let seems = random_effect(data, &end);
     // A random effect takes with it what is left at random.
-    let random = seems.filter(|random| is_beyond_forms(random.ln_bayes, tolerated(&named) + of_included));
+    let random = seems.filter(|random| is_beyond_forms(random.ln_bayes, tolerated(&named)));
     let excess = excess(stated, noise, in_proportion).filter(|_| seems.is_none());
     let mut at_random = at_random(&end, random.or(excess));
     let found_at_random = at_random.len();
     at_random.retain(|random| !data.unpredicted.includes(random));
+    // Errors that the camera includes are no mismatch.
+    if at_random.is_empty() && found_at_random > 0 {
+        [&mut places, &mut left].into_iter().for_each(|places| places.retain(|place| !place.is_random));
+    }
     let is_left = |place: &&Place| {
-        random.is_none_or(|random| {
-            !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
-        })
+        !forms.may_leave(place)
+            && random.is_none_or(|random| {
+                !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
+            })
     };
     let rest = left.iter().filter(is_left).map(Place::excess).fold(0.0, f64::max);
-    // As where such an effect is found.
-    let rest = if rest < DISBELIEF * of_included { 0.0 } else { rest };
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
     // Far from the baseline columns promise more than there is, and of several effects none is sure. Noise that samples share raises all columns, and
     // so does a random effect.
@@ -112,8 +114,8 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let shared = random::noise(data, &end);
     let are_raised = seems.is_some() || shared.is_some();
     // Where nothing of the camera is described, several things are left out at once, and a coordinate shows a part of each.
-    let forms = if data.assumed.camera { DISBELIEF } else { 1.0 };
-    let names = if is_far || are_raised { None } else { Names::of(&found, &named, explained, forms) };
+    let many = if data.assumed.camera { DISBELIEF } else { 1.0 };
+    let names = if is_far || are_raised { None } else { Names::of(&found, &named, explained, many) };
     places.extend(excess.map(|excess| of_excess(&excess, end.take)));
     let case = Case {
         named: &named,
@@ -146,10 +148,6 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         random.push((cut.name, cut.strength));
         verdict = Verdict::Explained;
     }
-    // Errors that the camera includes are no mismatch.
-    if at_random.len() < found_at_random {
-        [&mut places, &mut left].into_iter().for_each(|places| places.retain(|place| !place.is_random));
-    }
     if verdict == Verdict::Clean {
         places.clear();
     }
@@ -157,7 +155,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let shared_noise = shared.filter(|noise| noise.level != Level::Pixel).map(words);
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
     let locations = [baseline, after];
-    let jitters = data.unpredicted.jitter.map(|sigma| sigma > 0.0);
+    let overstated = Vec::new();
     Judgement {
         verdict,
         places,
@@ -170,7 +168,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         fit,
         noise,
         shared_noise,
-        jitters,
+        overstated,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Diagnosis: where recordings and simulation disagree, and which physics was left out.
 
 mod acting;
+mod again;
 mod alias;
 mod alone;
 mod block;

@@ -11,25 +11,29 @@ use super::random::{self, CLUSTER_NATS, EXCESS_NOISE, JITTERS};
 const HALVINGS: usize = 40;
 const ENDS: (f64, f64) = (1e-6, 1.0);
 
-/// What is random and is not included by the camera, each with its smallest strength: the standard deviation of a frame's phase (rad) and of its time (s), and
-/// that of noise over the signal. What no strength shows is not among them.
-pub fn detectable_at_random(data: &Data, location: &Location, noise: Noise) -> Vec<(&'static str, f64)> {
+/// What is random, each with its smallest strength: the standard deviation of a frame's phase (rad) and of its time (s), and that of noise over the signal. Nothing
+/// where no strength shows it. Of what the camera includes, so much more must be there.
+pub fn detectable_at_random(
+    data: &Data,
+    location: &Location,
+    noise: Noise,
+) -> Vec<(&'static str, Option<f64>)> {
     let frames = location.jitters.frames();
-    let sets = frames.iter().map(|frame| frame.set).max().map_or(0, |last| last + 1).max(1) as f64;
+    let sets = frames.iter().map(|frame| frame.set).max().map_or(1, |last| last + 1) as f64;
     // Of a frame's information the pixels' own numbers take a part of one over the number of sets.
-    let left = 1.0 - sets.recip();
+    let share = 1.0 - sets.recip();
     let least = random::least_of_effects(data, location);
     let kinds: [fn(&Frame) -> f64; 2] = [|frame| frame.phase.1, |frame| frame.time.1];
-    let jitters =
-        (0..JITTERS.len()).filter(|&kind| data.unpredicted.jitter[kind] == 0.0).filter_map(|kind| {
-            let information: Vec<f64> = frames.iter().map(|frame| left * kinds[kind](frame)).collect();
-            Some((JITTERS[kind], smallest(&information, least)?))
-        });
+    let jitters = [0, 1].map(|kind| {
+        let information: Vec<f64> = frames.iter().map(|frame| share * kinds[kind](frame)).collect();
+        let beside = |sigma: f64| sigma.hypot(data.unpredicted.jitter[kind]);
+        (JITTERS[kind], smallest(&information, least).map(beside))
+    });
     // Chi squared of one number, from which on its evidence is enough.
     let excess_sigmas = (2.0 * CLUSTER_NATS).sqrt() + POWER_SIGMAS;
-    let square = (data.unpredicted.square == 0.0).then(|| excess_sigmas * square_known_to(data, noise));
-    let excess = square.filter(|square| *square > 0.0).map(|square| (EXCESS_NOISE, square.sqrt()));
-    jitters.chain(excess).collect()
+    let square = excess_sigmas * square_known_to(data, noise);
+    let excess = (square > 0.0).then(|| (square + data.unpredicted.square).sqrt());
+    jitters.into_iter().chain([(EXCESS_NOISE, excess)]).collect()
 }
 
 /// The standard deviation at which errors of clusters of this `information` have more evidence than `least` (nats) in 95 of 100 campaigns.

@@ -8,6 +8,8 @@ use super::noise::{Noise, beyond};
 use super::random::{self, is_noisier, jitter, random_effect};
 use super::search::{Found, Search};
 
+/// Errors of frames are more than the camera includes by this factor, or are found beside those.
+const MORE: f64 = 1.1;
 /// How often the noise is corrected.
 const NOISE_STEPS: usize = 2;
 
@@ -77,10 +79,17 @@ fn search(data: &Data, baseline: Fit, noise: Noise, of_included: f64) -> Searche
 /// The same beside errors of frames, where the `end` of a search shows such as a jitter makes, and a search that has them among the noise leaves nothing else:
 /// what frames share is no evidence for anything that does it in another way.
 fn beside_jitter(data: &Data, noise: Noise, end: &Location, of_included: f64) -> Option<Searched> {
-    if noise.jitter != [0.0; 2] {
+    // Once is enough.
+    let included = data.unpredicted.jitter;
+    if noise.jitter != included {
         return None;
     }
-    let beside = Noise { jitter: jitter(data, end)?, ..noise };
+    let found = jitter(data, end)?;
+    let is_more = |number: usize| found[number] > MORE * included[number];
+    if !is_more(0) && !is_more(1) {
+        return None;
+    }
+    let beside = Noise { jitter: [0, 1].map(|number| found[number].max(included[number])), ..noise };
     let searched = search(data, unfitted(data, beside), beside, of_included);
     let (found, after) = (&searched.found, &searched.locations[1]);
     // What orders the errors must not show, whether they are among the noise or not.

@@ -1,6 +1,7 @@
 //! Whether errors of frames have a mean, or go with the velocity: what does is no jitter. A shutter, or an encoder, that is always late by as much, or in the same
 //! frame of every set, looks like a random time of moving frames to one who sees only how great the errors are.
 
+use super::again::comes_again;
 use super::jitters::{Frame, Jitters};
 use std::collections::BTreeMap;
 
@@ -34,12 +35,15 @@ struct Set {
     velocity_m_s: f64,
 }
 
-/// Whether the errors of a `kind` (0: the phase, 1: the time), which scatter by `sigma`, are not random but have a mean, or go with the velocity: those of whole
-/// sets, or those of one frame of each.
+/// Whether the errors of a `kind` (0: the phase, 1: the time), which scatter by `sigma`, are not random but have a mean, go with the velocity, or come again
+/// where the target is again: those of whole sets, or those of one frame of each.
 ///
 /// Frames of a set may share the error of its reading, so that a mean scatters as those of sets do.
 pub fn is_steady(jitters: &Jitters, kind: usize, sigma: f64) -> bool {
     let kind = &KINDS[kind];
+    if comes_again(jitters, kind.of, sigma) {
+        return true;
+    }
     let all = sets(jitters.frames().iter(), kind, sigma);
     let mut of_number = BTreeMap::<(usize, usize), Vec<&Frame>>::new();
     jitters.frames().iter().for_each(|frame| of_number.entry(frame.number).or_default().push(frame));
@@ -119,7 +123,16 @@ mod tests {
                 let nothing = (0.0, 0.0);
                 let time = (information * error, information);
                 let number = (number, FRAMES);
-                jitters.add(Frame { phase: nothing, time, shared: 0.0, set, number, velocity_m_s });
+                jitters.add(Frame {
+                    phase: nothing,
+                    time,
+                    shared: 0.0,
+                    set,
+                    number,
+                    velocity_m_s,
+                    position_m: 1.0,
+                    offset_rad: 0.0,
+                });
             }
         }
         jitters

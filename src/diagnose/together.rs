@@ -19,7 +19,7 @@ pub fn check_together(recordings: &[Recording], camera: &Camera) -> Result<()> {
     if let Some(other) = recordings.iter().find(|recording| recording.camera != first.camera) {
         return Err(Problem::in_file(
             &other.folder,
-            format_args!("has another camera.toml than {}", first.name),
+            format_args!("has another camera.toml than {}, or none where that has one", first.name),
         )
         .expected("recordings of one camera, described once")
         .remedy("keep camera.toml beside the recordings' folders alone, or diagnose them one by one"));

@@ -15,6 +15,7 @@ use super::noise::Noise;
 use super::noise::measured;
 use super::pieces::{OF_NEIGHBOURS, OF_STILL_SCENES};
 use super::power_at_random::detectable_at_random;
+use super::random::JITTERS;
 use super::search::{Found, Named};
 use super::settle::{outlying, with_mask};
 use super::stated_noise;
@@ -195,6 +196,7 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     if judgement.verdict == Verdict::Explained && is_more {
         judgement.verdict = Verdict::PartlyExplained;
     }
+    judgement.overstated = overstated(data, &judgement, held_out.after.chi2_per_dof);
     let mut answer = answer(data, &judgement, &held_out);
     answer.provenance["sets_left_out"] = json!(left_out);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
@@ -203,6 +205,27 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
 
 /// Sets that were not seen are explained where they have no more chi squared a sample: noise alone has 1.
 const EXPLAINED: f64 = 2.0;
+
+/// Sets that were not seen have no less chi squared a sample, where the noise is what the camera states.
+const LEAST_CHI2: f64 = 0.9;
+/// An included jitter is more than is there by so many times.
+const TOO_MUCH: f64 = 1.5;
+
+/// What the camera states or includes of noise and errors at random that these recordings do not have, in words: what is weaker than that is not seen.
+fn overstated(data: &Data, judgement: &Judgement, chi2_per_dof: f64) -> Vec<String> {
+    let mut words = Vec::new();
+    if !data.assumed.camera && chi2_per_dof < LEAST_CHI2 {
+        words.push(format!("noise: of its variance {:.0} % are there", 100.0 * chi2_per_dof));
+    }
+    let included = data.unpredicted.jitter;
+    let (phase_rad, time_s) = judgement.locations[1].jitters.likeliest(included.map(|sigma| sigma > 0.0));
+    for (number, (found, unit)) in [(phase_rad, "rad"), (time_s, "s")].into_iter().enumerate() {
+        if included[number] > TOO_MUCH * found {
+            words.push(format!("{}: {found:.1e} {unit} are there", JITTERS[number]));
+        }
+    }
+    words
+}
 
 /// The noise that the camera's description gives, or, without one, what the recordings show.
 fn noise_of(data: &Data) -> Noise {
@@ -230,9 +253,9 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     let seen = |place: &Place| located(data, judgement, place);
     let at_random = detectable_at_random(data, &judgement.locations[0], judgement.noise);
     let rows = found.detectable.iter().map(|row| (row.name, row.parameter, row.value));
-    let rows = rows.chain(at_random.into_iter().map(|(name, value)| (name, 0, value)));
+    let rows = rows.chain(at_random.iter().filter_map(|&(name, value)| Some((name, 0, value?))));
     // Of the camera's own arithmetic every bit is seen.
-    let rows = rows.chain((data.unpredicted.bits_cut == 0).then_some((FIXED_POINT, 0, 1.0)));
+    let rows = rows.chain([(FIXED_POINT, 0, f64::from(data.unpredicted.bits_cut) + 1.0)]);
     let smallest = rows.filter_map(|(name, parameter, value)| {
         let parameter = data.effect(name)?.parameters.get(parameter)?;
         Some(Smallest { name, parameter: parameter.name, value: rounded(value), unit: parameter.unit })
@@ -272,7 +295,10 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
                 expected_rho: rounded(next.rho),
             })
             .collect(),
-        invisible: invisible(data, found).into_iter().filter(|row| !is_named(row.name)).collect(),
+        invisible: invisible(data, found, &at_random)
+            .into_iter()
+            .filter(|row| !is_named(row.name))
+            .collect(),
         smallest_detectable: smallest.collect(),
         provenance: json!({
             "program": concat!("vuris ", env!("CARGO_PKG_VERSION")),
@@ -293,12 +319,13 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
             "noise": {"floor_dn2": judgement.noise.floor, "slope_dn": judgement.noise.slope,
                       "relative_squared": judgement.noise.square, "shared": judgement.shared_noise},
             "encoder_sigma_m": judgement.fit.jitter_m2.sqrt(),
+            "overstated": judgement.overstated,
         }),
     }
 }
 
 /// What these recordings cannot show, and why.
-fn invisible(data: &Data, found: &Found) -> Vec<Invisible> {
+fn invisible(data: &Data, found: &Found, at_random: &[(&'static str, Option<f64>)]) -> Vec<Invisible> {
     let rows = |names: &[&'static str], why: &str| -> Vec<Invisible> {
         names.iter().map(|&name| Invisible { name, why: why.to_owned() }).collect()
     };
@@ -307,6 +334,8 @@ fn invisible(data: &Data, found: &Found) -> Vec<Invisible> {
     if !data.assumed.still_scene {
         invisible.extend(rows(&OF_STILL_SCENES, "it is looked for in scenes that stand still alone: here, light that follows the rail says nearly the same"));
     }
+    let unseen: Vec<&str> = at_random.iter().filter(|row| row.1.is_none()).map(|row| row.0).collect();
+    invisible.extend(rows(&unseen, "no frame shows it, or too few do"));
     if data.grid.every > 1 {
         let why = "only some rows and columns are looked at, and a pixel's neighbours make it: it is looked for in a window of the sensor where something is not explained";
         invisible.extend(rows(&OF_NEIGHBOURS, why));
@@ -336,7 +365,7 @@ fn ruled_out(judgement: &Judgement) -> Vec<RuledOut> {
     let Judgement { found, named, verdict, .. } = judgement;
     let best = found.alone.iter().map(|alone| alone.chi2).fold(0.0, f64::max);
     let explained = found.baseline.counted() - judgement.fit.counted();
-    let places = judgement.places.iter().filter(|place| !place.is_random).map(|place| place.chi2.0);
+    let places = judgement.places.iter().map(|place| place.chi2.0);
     let all = places.fold(best.max(explained), f64::max).max(1.0);
     let others = found.alone.iter().filter(|alone| {
         !named

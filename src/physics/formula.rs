@@ -40,8 +40,11 @@ impl Target {
 /// The value of a coordinate for a pixel of a frame.
 type Coordinate = fn(&Exposure, usize) -> f64;
 
+/// So many coordinates has a formula.
+pub const COORDINATES: usize = 13;
+
 /// The coordinates, as formulas call them.
-const COORDINATES: [(&str, Coordinate); 13] = [
+const ALL: [(&str, Coordinate); COORDINATES] = [
     ("phase", |e, pixel| e.phase_rad.get(pixel).copied().unwrap_or(0.0)),
     ("angle", |e, _| e.angle_rad),
     ("position_m", |e, _| e.position_m + e.motion_share * e.way_m()),
@@ -86,9 +89,9 @@ impl Formula {
             if let Some(number) = parameters.iter().position(|parameter| parameter == name) {
                 return Ok(Variable::Parameter(number));
             }
-            let number = COORDINATES.iter().position(|(known, _)| known == name);
+            let number = ALL.iter().position(|(known, _)| known == name);
             number.map(Variable::Coordinate).ok_or_else(|| {
-                let names: Vec<&str> = COORDINATES.iter().map(|(name, _)| *name).collect();
+                let names: Vec<&str> = ALL.iter().map(|(name, _)| *name).collect();
                 Problem::at("formula", format_args!("{text}: {name} is neither a parameter nor a coordinate"))
                     .expected(format_args!("parameters ({}) and {}", parameters.join(", "), names.join(", ")))
             })
@@ -123,7 +126,7 @@ impl Formula {
     pub fn act(&self, values: &[f64], exposure: &mut Exposure) {
         let mut arguments = Vec::new();
         let mut change = |pixel: usize| {
-            let coordinate = |number: usize| (COORDINATES[number].1)(exposure, pixel);
+            let coordinate = |number: usize| (ALL[number].1)(exposure, pixel);
             self.value(values, coordinate, &mut arguments).unwrap_or(0.0)
         };
         let changes: Vec<f64> = (0..exposure.pixels.count()).map(&mut change).collect();

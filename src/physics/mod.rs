@@ -32,7 +32,7 @@ pub use draws::Draws;
 pub use effect::{Act, Active, Chance, Effect, Parameter, Place};
 pub use effects::EFFECTS;
 pub use exposure::{Before, Exposure, Included, Moment};
-pub use formula::{Formula, Target};
+pub use formula::{COORDINATES, Formula, Target};
 pub use per_pixel::PerPixel;
 pub use pixels::Pixels;
 pub use powers::ln;

@@ -1,6 +1,8 @@
 //! What was found, in one paragraph: the physics, where it shows, by what evidence, and what comes nearest and is not it.
 
 use crate::diagnose::{Answer, EffectRow, RuledOut};
+use crate::physics::Chance;
+use crate::physics::effects::{FIXED_POINT, named};
 
 /// So many coordinates, and so many effects that come near, are told.
 const TOLD: usize = 3;
@@ -24,7 +26,7 @@ pub fn paragraph(answer: &Answer) -> String {
                 true => " A value came to its bound: there is more of it, or something else.",
                 false => " Something else is left.",
             };
-            format!("{sentences}{}{left}{}", evidence(answer), ruled_out(answer))
+            format!("{sentences}{}{}{left}", evidence(answer), ruled_out(answer))
         }
         _ => format!("{sentences}{}{}", evidence(answer), ruled_out(answer)),
     }
@@ -54,14 +56,21 @@ fn place(answer: &Answer) -> String {
 
 /// What speaks for the effects.
 fn evidence(answer: &Answer) -> String {
-    let of = |effect: &EffectRow| format!("{:.0}", effect.evidence.delta_chi2);
-    let chi2 = listed(&answer.effects.iter().map(of).collect::<Vec<_>>());
-    let numbers: usize = answer.effects.iter().map(|effect| effect.evidence.degrees_of_freedom).sum();
-    let counted = if numbers == 1 { "one number".to_owned() } else { format!("{numbers} numbers") };
-    let (it, shows, takes) =
-        if answer.effects.len() > 1 { ("They", "show", "take") } else { ("It", "shows", "takes") };
-    let where_it_is =
-        if answer.located.is_empty() { String::new() } else { format!("{shows}{}, and ", place(answer)) };
+    let shows = if answer.effects.len() > 1 { "They show" } else { "It shows" };
+    let place = place(answer);
+    let place = if place.is_empty() { place } else { format!(" {shows}{place}.") };
+    let of = |effect: &EffectRow| {
+        let row = effect.evidence;
+        let numbers = counted(row.degrees_of_freedom, "number");
+        // What is random, or is told by the codes alone, predicts no sample, and takes nothing of chi squared.
+        match named(effect.name).is_some_and(|known| known.chance != Chance::None)
+            || effect.name == FIXED_POINT
+        {
+            true => format!("{:.0} nats", row.ln_bayes_factor),
+            false => format!("{:.0} of chi squared by {numbers}", row.delta_chi2),
+        }
+    };
+    let items = listed(&answer.effects.iter().map(of).collect::<Vec<_>>());
     let held = &answer.held_out;
     let unseen = match held.sets > 0 && held.chi2_per_dof_after < held.chi2_per_dof_before {
         true => format!(
@@ -70,20 +79,25 @@ fn evidence(answer: &Answer) -> String {
         ),
         false => String::new(),
     };
-    format!(" {it} {where_it_is}{takes} {chi2} of chi squared by {counted}{unseen}.")
+    format!("{place} Evidence: {items}{unseen}.")
 }
 
-/// What comes nearest and is not it, and what leaves no trace.
+/// What comes nearest and is not it, and how many others there are.
 fn ruled_out(answer: &Answer) -> String {
     let near: Vec<&RuledOut> = answer.ruled_out.iter().filter(|row| row.share >= NEAR).take(TOLD).collect();
-    if near.is_empty() {
-        return String::new();
+    let percent = |row: &&RuledOut| format!("{} {:.0} %", row.name, (100.0 * row.share).floor().min(99.0));
+    let names: Vec<String> = near.iter().map(percent).collect();
+    let others = match answer.ruled_out.len() - near.len() {
+        0 => String::new(),
+        count => format!("; {} less, or nothing", counted(count, "other")),
+    };
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(" Each alone, and without the rest, would explain: {}{others}.", listed(&names)),
     }
-    let names = near.iter().map(|row| format!("{} ({:.0} %)", row.name, (100.0 * row.share).floor()));
-    format!(
-        " Alone {} would explain a part of it and leave{} the rest; {} others less, or nothing.",
-        listed(&names.collect::<Vec<_>>()),
-        if near.len() == 1 { "s" } else { "" },
-        answer.ruled_out.len() - near.len()
-    )
+}
+
+/// `one number`, `2 numbers`.
+fn counted(count: usize, noun: &str) -> String {
+    if count == 1 { format!("one {noun}") } else { format!("{count} {noun}s") }
 }

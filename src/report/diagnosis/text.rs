@@ -60,6 +60,12 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         let _ =
             writeln!(text, "Noise beside what the camera states: {shared}. No physics is left out by that.");
     }
+    for words in &diagnosis.judgement.overstated {
+        let _ = writeln!(
+            text,
+            "The camera states more than there is of {words}. What is weaker than it states is not seen."
+        );
+    }
     text += &of_held_out(&answer.held_out);
     if let Some(coordinate) = answer.remainder.coordinate {
         let share = 100.0 * answer.remainder.share;
