@@ -144,9 +144,9 @@ const BINS: usize = 48;
 /// What the residuals of `fit` show beyond the noise that was `stated`: their squares over the signal, by least squares, no part less than
 /// was stated. Beside the noise `known` so far they are looked at first, and then beside what they showed: what is far beyond the noise does not count in full.
 pub fn beyond(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
-    let mut found = beside(data, fit, known, stated);
+    let mut found = seen_beside(data, fit, known, stated);
     for _ in 1..LOOKS {
-        found = beside(data, fit, found.noise, stated);
+        found = seen_beside(data, fit, found.noise, stated);
     }
     found
 }
@@ -155,7 +155,7 @@ pub fn beyond(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
 const LOOKS: usize = 4;
 
 /// The same, beside the noise `known`.
-fn beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
+fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
     let full_scale_dn = fit.pixels.full_scale_dn;
     // Samples, and sums of their signal and of their residual's square over the variance.

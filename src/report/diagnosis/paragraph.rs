@@ -85,15 +85,20 @@ fn evidence(answer: &Answer) -> String {
 /// What comes nearest and is not it, and how many others there are.
 fn ruled_out(answer: &Answer) -> String {
     let near: Vec<&RuledOut> = answer.ruled_out.iter().filter(|row| row.share >= NEAR).take(TOLD).collect();
-    let percent = |row: &&RuledOut| format!("{} {:.0} %", row.name, (100.0 * row.share).floor().min(99.0));
-    let names: Vec<String> = near.iter().map(percent).collect();
+    let shares = near.iter().map(|row| (100.0 * row.share).floor().min(99.0)).enumerate();
+    let percent = |(number, share): (usize, f64)| match number {
+        0 => format!("{} (takes {share:.0} %)", near[number].name),
+        _ => format!("{} ({share:.0} %)", near[number].name),
+    };
+    let names: Vec<String> = shares.map(percent).collect();
     let others = match answer.ruled_out.len() - near.len() {
         0 => String::new(),
-        count => format!("; {} less, or nothing", counted(count, "other")),
+        1 => "; one other takes less, or nothing".to_owned(),
+        count => format!("; {count} others take less, or nothing"),
     };
     match names.is_empty() {
         true => String::new(),
-        false => format!(" Each alone, and without the rest, would explain: {}{others}.", listed(&names)),
+        false => format!(" Ruled out, since each alone leaves the rest of it: {}{others}.", listed(&names)),
     }
 }
 
