@@ -83,7 +83,7 @@ fn a_fit_that_is_asserted_is_gone_on_with_to_its_end() {
 #[test]
 fn errors_that_come_again_at_the_same_place_are_no_jitter() {
     let folder = tempfile::tempdir().unwrap();
-    let bench = ["--camera", CAMERA, "--constant-ratio", "1.2337", "--size", "12x9", "--velocities-m-s", "2"];
+    let bench = ["--camera", CAMERA, "--constant-ratio", "1.2337", "--velocities-m-s", "2"];
     let wall = "multipath_interference:relative_amplitude=0.8,wall_distance_m=3.51";
     let options = [&bench[..], &["--frame-period-s", "0.03125", "--effect", wall]].concat();
     let strong = verdict(folder.path(), "four-motion", &options);
