@@ -32,6 +32,9 @@ pub fn comes_again(jitters: &Jitters, of: fn(&Frame) -> (f64, f64), sigma: f64) 
     let (mut products, mut squares, mut pairs) = (0.0, 0.0, 0);
     for group in groups.values_mut() {
         group.sort_by(|one, other| one.0.total_cmp(&other.0));
+        // What all have in common is the pixels' own, or steady.
+        let mean = group.iter().map(|error| error.1).sum::<f64>() / group.len() as f64;
+        group.iter_mut().for_each(|error| error.1 -= mean);
         for pair in group.windows(2) {
             products += pair[0].1 * pair[1].1;
             squares += 0.5 * (pair[0].1.powi(2) + pair[1].1.powi(2));
