@@ -22,7 +22,7 @@ pub struct Take {
     pub moments: Vec<Moment>,
     /// Frames a set.
     pub frames: usize,
-    /// Effects that the camera's simulation includes, with values, but for what is [`Unpredicted`].
+    /// Effects that the camera's simulation includes, with values, but for those of `unpredicted`.
     pub included: Vec<Active>,
     /// Signals above the pedestal, DN, `[frame, pixel]`; NaN where a sample does not count.
     pub signal_dn: Vec<f32>,
