@@ -247,18 +247,8 @@ fn what_no_effect_explains_is_unexplained_and_located() {
     assert_eq!(verdict["located"][0]["coordinate"], "row");
 }
 
-const LIBRARY: &str = r#"
-[[effect]]
-name = "row_ripple"
-sentence = "The supply's ripple stands on the rows while they are read, the same in every second set."
-acts_on = "signal"
-formula = "amplitude_dn * sin(1.9 * row) * cos(PI * set)"
-[[effect.parameter]]
-name = "amplitude_dn"
-unit = "DN"
-bounds = [-50, 50]
-typical = 1
-"#;
+/// A library of one effect, `row_ripple`.
+const LIBRARY: &str = include_str!("data/row-ripple.toml");
 
 #[test]
 fn what_is_unexplained_is_named_when_the_user_gives_its_formula() {

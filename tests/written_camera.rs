@@ -7,19 +7,11 @@ use diagnosed::{names, parameter, verdict, vuris};
 use recorded::at_hand;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use vuris::diagnose::{Data, camera_with, diagnose};
+use vuris::recording::{Camera, Recording};
 
-const LIBRARY: &str = r#"
-[[effect]]
-name = "row_ripple"
-sentence = "The supply's ripple stands on the rows while they are read, the same in every second set."
-acts_on = "signal"
-formula = "amplitude_dn * sin(1.9 * row) * cos(PI * set)"
-[[effect.parameter]]
-name = "amplitude_dn"
-unit = "DN"
-bounds = [-50, 50]
-typical = 1
-"#;
+/// A library of one effect, `row_ripple`.
+const LIBRARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/row-ripple.toml");
 
 /// What is simulated, and what of it must be found.
 const FOUND: [(&str, &str); 7] = [
@@ -42,9 +34,9 @@ fn campaign(folder: &Path, options: &[&str]) -> PathBuf {
 }
 
 /// What is said of `campaign`, whose camera is written anew with what was found.
-fn verdict_and_camera(campaign: &Path, library: &str) -> Value {
+fn verdict_and_camera(campaign: &Path) -> Value {
     let camera = campaign.join("camera.toml");
-    let written = ["--write-camera", camera.to_str().unwrap(), "--library", library];
+    let written = ["--write-camera", camera.to_str().unwrap(), "--library", LIBRARY];
     let (good, text) =
         vuris(&[&["diagnose", campaign.to_str().unwrap(), "--json", "-"], &written[..]].concat());
     assert!(good, "{text}");
@@ -61,22 +53,19 @@ fn is_as_stated(verdict: &Value) -> bool {
 #[test]
 fn a_camera_with_what_was_found_is_clean_and_is_simulated() {
     let folder = tempfile::tempdir().unwrap();
-    let library = folder.path().join("library.toml");
-    std::fs::write(&library, LIBRARY).unwrap();
-    let library = library.to_str().unwrap();
     for (name, effect) in FOUND {
-        let options = ["--seed", "4", "--library", library, "--effect", effect];
+        let options = ["--seed", "4", "--library", LIBRARY, "--effect", effect];
         let campaign = campaign(&folder.path().join(name), &options);
-        let before = verdict_and_camera(&campaign, library);
+        let before = verdict_and_camera(&campaign);
         assert_eq!(names(&before), [name], "{before:#}");
-        let after = verdict_and_camera(&campaign, library);
+        let after = verdict_and_camera(&campaign);
         assert_eq!(after["verdict"], "clean", "{name}: {after:#}");
         assert!(is_as_stated(&after), "{name}: {after:#}");
         // Another campaign, simulated with this camera: it has what the camera says, and nothing else.
         let camera = campaign.join("camera.toml");
-        let options = ["--seed", "5", "--library", library, "--camera", camera.to_str().unwrap()];
+        let options = ["--seed", "5", "--library", LIBRARY, "--camera", camera.to_str().unwrap()];
         let next = self::campaign(&folder.path().join(format!("{name}-next")), &options);
-        let next = verdict_and_camera(&next, library);
+        let next = verdict_and_camera(&next);
         assert_eq!(next["verdict"], "clean", "{name}: {next:#}");
         assert!(is_as_stated(&next), "{name}: {next:#}");
     }
@@ -135,10 +124,8 @@ fn include(campaign: &Path, effect: &str) {
 #[test]
 fn an_included_effect_does_not_hide_what_it_does_not_make() {
     let folder = tempfile::tempdir().unwrap();
-    let library = folder.path().join("library.toml");
-    std::fs::write(&library, LIBRARY).unwrap();
     let effects = ["--effect", "row_ripple:amplitude_dn=2", "--effect", "image_lag:share=0.1"];
-    let options = [&["--seed", "4", "--library", library.to_str().unwrap()], &effects[..]].concat();
+    let options = [&["--seed", "4", "--library", LIBRARY], &effects[..]].concat();
     let campaign = campaign(&folder.path().join("a"), &options);
     include(&campaign, "image_lag:share=0.1");
     let verdict = verdict(&campaign);
@@ -162,9 +149,7 @@ fn noise_that_is_stated_and_is_not_there_is_remarked_on() {
 fn bits_that_are_there_were_not_cut_off() {
     let folder = tempfile::tempdir().unwrap();
     let campaign = campaign(&folder.path().join("a"), &["--effect", "fixed_point:bits_cut=2"]);
-    let camera = campaign.join("camera.toml");
-    let described = std::fs::read_to_string(&camera).unwrap();
-    std::fs::write(&camera, format!("{described}effects = [\"fixed_point:bits_cut=3\"]\n")).unwrap();
+    include(&campaign, "fixed_point:bits_cut=3");
     let (good, text) = vuris(&["diagnose", campaign.to_str().unwrap()]);
     assert!(!good && text.contains("bits below the 3 that camera.toml says are cut off"), "{text}");
     assert!(text.contains("2 bits cut at most"), "{text}");
@@ -174,24 +159,18 @@ fn bits_that_are_there_were_not_cut_off() {
 #[test]
 fn what_an_included_form_leaves_is_no_mismatch() {
     let Some(practice) = at_hand("VURIS_PRACTICE", "practice", "08") else { return };
-    let folder = tempfile::tempdir().unwrap();
-    for entry in std::fs::read_dir(&practice).unwrap() {
-        let path = entry.unwrap().path();
-        let there = folder.path().join(path.file_name().unwrap());
-        if path.is_dir() {
-            std::fs::create_dir(&there).unwrap();
-            for file in std::fs::read_dir(&path).unwrap() {
-                let file = file.unwrap().path();
-                std::fs::copy(&file, there.join(file.file_name().unwrap())).unwrap();
-            }
-        } else {
-            std::fs::copy(&path, &there).unwrap();
-        }
-    }
-    let library = folder.path().join("library.toml");
-    std::fs::write(&library, LIBRARY).unwrap();
-    let of = || verdict_and_camera(folder.path(), library.to_str().unwrap());
-    assert_eq!(names(&of()), ["image_lag"]);
-    let after = of();
-    assert_eq!(after["verdict"], "clean", "{after:#}");
+    let folders = std::fs::read_dir(&practice).unwrap().map(|entry| entry.unwrap().path());
+    let mut folders: Vec<PathBuf> = folders.filter(|folder| folder.is_dir()).collect();
+    folders.sort();
+    let mut recordings: Vec<Recording> =
+        folders.iter().map(|folder| Recording::open(folder).unwrap()).collect();
+    let found = Data::of(&recordings, Vec::new()).unwrap();
+    let before = diagnose(&found);
+    let named: Vec<&str> = before.answer.effects.iter().map(|effect| effect.name).collect();
+    assert_eq!(named, ["image_lag"]);
+    let camera = camera_with(&found, &before.judgement).to_toml();
+    let camera = Camera::parse("camera.toml", &camera).unwrap();
+    recordings.iter_mut().for_each(|recording| recording.camera = Some(camera.clone()));
+    let after = diagnose(&Data::of(&recordings, Vec::new()).unwrap()).answer;
+    assert_eq!(after.verdict, "clean", "{after:#?}");
 }

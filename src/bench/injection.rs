@@ -19,8 +19,7 @@ pub fn injection(text: &str) -> Result<Active> {
 /// As [`injection`].
 pub fn injection_among(text: &str, library: &[&'static Effect]) -> Result<Active> {
     let (name, settings) = text.split_once(':').unwrap_or((text, ""));
-    let of_library = || library.iter().copied().find(|effect| effect.name == name);
-    let effect = effects::named(name).or_else(of_library).ok_or_else(|| {
+    let effect = effects::named_among(name, library).ok_or_else(|| {
         let names: Vec<&str> = EFFECTS.iter().chain(library).map(|effect| effect.name).collect();
         Problem::at("--effect", format_args!("no effect is called {name}"))
             .expected(names.join(", "))

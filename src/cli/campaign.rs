@@ -22,17 +22,31 @@ pub(super) fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>> {
     if is_recording(folder) || !folder.is_dir() {
         return Ok(vec![folder.to_owned()]);
     }
-    let cannot = |error: std::io::Error| Problem::io(folder, "list", &error);
-    let mut recordings = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(cannot)? {
-        let path = entry.map_err(cannot)?.path();
-        if is_recording(&path) {
-            recordings.push(path);
-        }
-    }
-    recordings.sort();
+    let recordings = folders_with(folder, is_recording)?;
     // A folder that is neither is refused as the recording that it should be.
     Ok(if recordings.is_empty() { vec![folder.to_owned()] } else { recordings })
+}
+
+/// Folders of a campaign that have frames, and are none of its recordings.
+pub(super) fn unfinished_in(campaign: &Path) -> Result<Vec<PathBuf>> {
+    let is_unfinished =
+        |folder: &Path| folder.join("frames.npy").is_file() && !folder.join("recording.toml").is_file();
+    let is_campaign = campaign.is_dir() && !campaign.join("recording.toml").is_file();
+    if is_campaign { folders_with(campaign, is_unfinished) } else { Ok(Vec::new()) }
+}
+
+/// What is in `folder` that `is` so, by name.
+fn folders_with(folder: &Path, is: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>> {
+    let cannot = |error: std::io::Error| Problem::io(folder, "list", &error);
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(cannot)? {
+        let path = entry.map_err(cannot)?.path();
+        if is(&path) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
 }
 
 /// Opens the recording or campaign in `folder`. Of a campaign, recordings whose phase steps do not fit are left out, with a line

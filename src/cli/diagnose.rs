@@ -1,6 +1,6 @@
 //! `vuris diagnose`
 
-use super::campaign::{recordings_in, remark_on_physics};
+use super::campaign::{recordings_in, remark_on_physics, unfinished_in};
 use super::library::effects_in;
 use super::print::{counted, remark, say};
 use super::progress;
@@ -92,12 +92,11 @@ impl Diagnose {
 
 /// The recordings in `campaign`, with a remark on those that say nothing, and on masks that are not one.
 fn read(campaign: &Path, library: &[&'static Effect]) -> Result<Data> {
-    let folders = recordings_in(campaign)?;
-    for folder in unfinished_in(campaign, &folders)? {
+    for folder in unfinished_in(campaign)? {
         remark(format_args!("{}: left out: it has frames.npy, and no recording.toml", folder.display()));
     }
     let recordings: Vec<Recording> =
-        folders.iter().map(|folder| Recording::open(folder)).collect::<Result<_>>()?;
+        recordings_in(campaign)?.iter().map(|folder| Recording::open(folder)).collect::<Result<_>>()?;
     let data = Data::of(&recordings, library.to_vec())?;
     for take in data.takes.iter().filter(|take| take.signal_dn.iter().all(|signal| signal.is_nan())) {
         remark(format_args!("{}: says nothing: all its codes are 0, or at full scale", take.name));
@@ -111,21 +110,4 @@ fn read(campaign: &Path, library: &[&'static Effect]) -> Result<Data> {
         }
     }
     Ok(data)
-}
-
-/// Folders of `campaign` that are none of its `recordings`, but have frames.
-fn unfinished_in(campaign: &Path, recordings: &[PathBuf]) -> Result<Vec<PathBuf>> {
-    if recordings == [campaign] {
-        return Ok(Vec::new());
-    }
-    let cannot = |error: std::io::Error| Problem::io(campaign, "list", &error);
-    let mut unfinished = Vec::new();
-    for entry in std::fs::read_dir(campaign).map_err(cannot)? {
-        let path = entry.map_err(cannot)?.path();
-        if path.join("frames.npy").is_file() && !recordings.contains(&path) {
-            unfinished.push(path);
-        }
-    }
-    unfinished.sort();
-    Ok(unfinished)
 }

@@ -232,7 +232,7 @@ impl Data {
                 name: recording.name.clone(),
                 moments: with_places(course.moments()),
                 frames: course.frames(),
-                included: included.into_iter().filter(Unpredicted::is_predicted).collect(),
+                included: included.into_iter().filter(|active| active.effect.is_predicted()).collect(),
                 signal_dn: recording
                     .raw
                     .codes()
@@ -372,7 +372,7 @@ impl Data {
 
     /// The effect called `name`, of the registry or the library.
     pub fn effect(&self, name: &str) -> Option<&'static Effect> {
-        effects::named(name).or_else(|| self.library.iter().copied().find(|effect| effect.name == name))
+        effects::named_among(name, &self.library)
     }
 
     /// Number of pixels.

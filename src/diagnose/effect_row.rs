@@ -10,8 +10,7 @@ use super::pieces::Piece;
 use super::random::{EXCESS_NOISE, Strength};
 use super::search::Named;
 use super::verdict::{EffectRow, EvidenceRow, ParameterRow};
-use crate::physics::Chance;
-use crate::physics::effects::FIXED_POINT;
+use crate::physics::Effect;
 use crate::recording::effect_name;
 
 /// The row of what is `named`.
@@ -61,12 +60,10 @@ pub fn in_all(data: &Data, name: &str, strength: Strength) -> Strength {
 fn beside_included(data: &Data, name: &str) -> &'static str {
     let is_included = data.described.effects.iter().any(|text| effect_name(text) == name);
     match is_included {
-        true if name == FIXED_POINT
-            || data.effect(name).is_some_and(|effect| effect.chance != Chance::None) =>
-        {
-            " There is more of it than the camera includes."
+        true if data.effect(name).is_some_and(Effect::is_predicted) => {
+            " This is beside what the camera includes of it."
         }
-        true => " This is beside what the camera includes of it.",
+        true => " There is more of it than the camera includes.",
         false => "",
     }
 }

@@ -10,6 +10,7 @@ use super::held_frames::Holding;
 use super::jitters::Jitters;
 use super::noise::Noise;
 use super::seen::{Agreement, BLOCKS, Seen, agreement, seen};
+use super::set_errors::Jitter;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -69,12 +70,12 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     let is_same = after.fit.pieces.is_empty() && after.noise == before.noise;
     let old = if is_same { new.clone() } else { predict(before) };
     // What the camera includes is as strong as it says; what is found, as the other folds show it.
-    let [phase_rad, time_s] = data.unpredicted.jitter;
-    let old = with_jitter(old, (phase_rad, time_s));
-    let is_included = data.unpredicted.jitter.map(|sigma| sigma > 0.0);
+    let included = data.unpredicted.jitter;
+    let with_included = |sets: Vec<Seen>| sets.into_iter().map(|set| with_jitter(set, included)).collect();
+    let old: Vec<Seen> = with_included(old);
     let new = match after.has_jitters() {
-        true => with_jitters(new, [0, 1].map(|kind| after.jitters[kind] || is_included[kind])),
-        false => with_jitter(new, (phase_rad, time_s)),
+        true => with_jitters(new, [0, 1].map(|kind| after.jitters[kind] || included[kind] > 0.0)),
+        false => with_included(new),
     };
     // Frames of a set are not predicted independently, blocks of the image are; what is off at random by frames is not of a block.
     let of_blocks = |(old, new): (&Seen, &Seen)| -> Vec<f64> {
@@ -112,24 +113,22 @@ fn with_jitters(mut sets: Vec<Seen>, exist: [bool; 2]) -> Vec<Seen> {
         let mut others = Jitters::default();
         let of_others = sets.iter().filter(|set| set.fold != fold).flat_map(|set| &set.jitters);
         of_others.for_each(|frame| others.add(*frame));
-        let strengths = others.likeliest(exist);
-        let of_fold = sets.iter().filter(|set| set.fold == fold).cloned().collect();
-        let mut with = with_jitter(of_fold, strengths).into_iter();
-        sets.iter_mut().filter(|set| set.fold == fold).zip(&mut with).for_each(|(set, with)| *set = with);
+        let (phase_rad, time_s) = others.likeliest(exist);
+        for set in sets.iter_mut().filter(|set| set.fold == fold) {
+            *set = with_jitter(std::mem::take(set), [phase_rad, time_s]);
+        }
     }
     sets
 }
 
-/// With random errors of frames of these standard deviations: of the phase, rad, and of the time, s.
-fn with_jitter(mut sets: Vec<Seen>, (phase_rad, time_s): (f64, f64)) -> Vec<Seen> {
-    for set in &mut sets {
-        for frame in &set.jitters {
-            let (square, ln_determinant) = frame.explained(phase_rad, time_s);
-            set.chi2 -= square;
-            set.unlikely += ln_determinant - square;
-        }
+/// A set with random errors of frames of these standard deviations.
+fn with_jitter(mut set: Seen, [phase_rad, time_s]: Jitter) -> Seen {
+    for frame in &set.jitters {
+        let (square, ln_determinant) = frame.explained(phase_rad, time_s);
+        set.chi2 -= square;
+        set.unlikely += ln_determinant - square;
     }
-    sets
+    set
 }
 
 /// Halves of the image.

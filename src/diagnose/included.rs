@@ -46,12 +46,6 @@ impl Unpredicted {
         Self { jitter: [phase_rad, time_s], square: relative * relative, bits_cut: bits as u32 }
     }
 
-    /// Whether a prediction shows what `active` does.
-    pub fn is_predicted(active: &Active) -> bool {
-        let name = active.effect.name;
-        !JITTERS.contains(&name) && name != EXCESS_NOISE && name != effects::FIXED_POINT
-    }
-
     /// Whether the camera includes this `jitter`, as strong as it was found or stronger.
     pub fn includes(&self, jitter: &RandomEffect) -> bool {
         let number = JITTERS.iter().position(|name| *name == jitter.name);

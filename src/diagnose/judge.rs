@@ -47,8 +47,6 @@ pub struct Judgement {
     pub noise: Noise,
     /// Noise that rows, columns or frames share besides, in words.
     pub shared_noise: Option<String>,
-    /// What the camera states or includes of noise and errors at random that is not there, in words.
-    pub overstated: Vec<String>,
 }
 
 impl Judgement {
@@ -155,21 +153,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let shared_noise = shared.filter(|noise| noise.level != Level::Pixel).map(words);
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
     let locations = [baseline, after];
-    let overstated = Vec::new();
-    Judgement {
-        verdict,
-        places,
-        left,
-        named,
-        remainder,
-        locations,
-        random,
-        found,
-        fit,
-        noise,
-        shared_noise,
-        overstated,
-    }
+    Judgement { verdict, places, left, named, remainder, locations, random, found, fit, noise, shared_noise }
 }
 
 /// A coordinate in which a mismatch says this share of what it says where it lives most may be where it lives.

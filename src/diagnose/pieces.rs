@@ -3,7 +3,7 @@
 use super::data::Data;
 use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
-use crate::physics::{Active, Chance, EFFECTS, Effect, Parameter, effects};
+use crate::physics::{Active, EFFECTS, Effect, Parameter};
 use crate::recording::BASELINE;
 
 /// An effect at certain values, in some of the recordings.
@@ -188,10 +188,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         .filter(|effect| {
             let is_seen = (data.grid.every == 1 || !OF_NEIGHBOURS.contains(&effect.name))
                 && (data.assumed.still_scene || !OF_STILL_SCENES.contains(&effect.name));
-            effect.chance == Chance::None
-                && effect.name != effects::FIXED_POINT
-                && is_seen
-                && !included(effect)
+            effect.is_predicted() && is_seen && !included(effect)
         })
         .map(|effect| {
             let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));

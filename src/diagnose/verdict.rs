@@ -31,6 +31,8 @@ pub struct Diagnosis {
     pub judgement: Judgement,
     /// The prediction of sets that were held out.
     pub held_out: HeldOut,
+    /// What the camera states or includes of noise and errors at random that is not there, in words.
+    pub overstated: Vec<String>,
     /// The answer.
     pub answer: Answer,
     /// The pixels that were looked at, as a sensor of their own.
@@ -196,11 +198,12 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     if judgement.verdict == Verdict::Explained && is_more {
         judgement.verdict = Verdict::PartlyExplained;
     }
-    judgement.overstated = overstated(data, &judgement, held_out.after.chi2_per_dof);
     let mut answer = answer(data, &judgement, &held_out);
+    let overstated = overstated(data, &judgement, held_out.after.chi2_per_dof);
     answer.provenance["sets_left_out"] = json!(left_out);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
-    Diagnosis { judgement, held_out, answer, geometry: data.geometry() }
+    answer.provenance["overstated"] = json!(overstated);
+    Diagnosis { judgement, held_out, overstated, answer, geometry: data.geometry() }
 }
 
 /// Sets that were not seen are explained where they have no more chi squared a sample: noise alone has 1.
@@ -319,7 +322,6 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
             "noise": {"floor_dn2": judgement.noise.floor, "slope_dn": judgement.noise.slope,
                       "relative_squared": judgement.noise.square, "shared": judgement.shared_noise},
             "encoder_sigma_m": judgement.fit.jitter_m2.sqrt(),
-            "overstated": judgement.overstated,
         }),
     }
 }

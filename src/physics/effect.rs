@@ -1,5 +1,6 @@
 //! What an effect is: parameters, the place in the chain where it acts, the forward model there.
 
+use super::effects;
 use super::exposure::Exposure;
 use super::formula::Formula;
 
@@ -193,6 +194,11 @@ impl Effect {
             Act::Code(act) => act(values, exposure),
             Act::Formula(formula) => formula.act(values, exposure),
         }
+    }
+
+    /// Whether a frame without noise shows what it does: it is neither random nor the camera's own arithmetic, which cuts codes.
+    pub fn is_predicted(&self) -> bool {
+        self.chance == Chance::None && self.name != effects::FIXED_POINT
     }
 
     /// The values at which it does nothing.

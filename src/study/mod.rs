@@ -14,7 +14,7 @@ pub use page::page;
 pub use summary::{Cell, Kind, Summary, interval};
 
 use crate::frames::Geometry;
-use crate::physics::{Chance, EFFECTS, Effect, effects};
+use crate::physics::{EFFECTS, Effect};
 use crate::problem::Result;
 use outside::outside;
 use rand::SeedableRng;
@@ -70,7 +70,7 @@ impl Study {
             Some(Concealed { effect, number, values: at(effect, number, rho * unit)? })
         };
         let effects: Vec<&'static Effect> =
-            EFFECTS.iter().copied().filter(|effect| is_tried(effect)).collect();
+            EFFECTS.iter().copied().filter(|effect| effect.is_predicted()).collect();
         for &effect in &effects {
             for rho in STRENGTHS {
                 let Some(alone) = concealed(effect, rho) else { continue };
@@ -96,11 +96,6 @@ impl Study {
         }
         Ok(cases)
     }
-}
-
-/// Effects with a strength that a number says, without chance.
-fn is_tried(effect: &Effect) -> bool {
-    effect.chance == Chance::None && effect.name != effects::FIXED_POINT
 }
 
 /// The effect's numbers with one of them at `value` and its shapes as usual; nothing beyond the bounds.

@@ -81,5 +81,10 @@ pub static EFFECTS: &[&Effect] = &[
 
 /// The effect called `name`.
 pub fn named(name: &str) -> Option<&'static Effect> {
-    EFFECTS.iter().copied().find(|effect| effect.name == name)
+    named_among(name, &[])
+}
+
+/// The effect called `name`, of the registry or of a `library`.
+pub fn named_among(name: &str, library: &[&'static Effect]) -> Option<&'static Effect> {
+    EFFECTS.iter().chain(library).copied().find(|effect| effect.name == name)
 }

@@ -73,10 +73,12 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
                         vec![
                             row.name.clone(),
                             format!("{:.6}", row.value),
-                            match row.sigma > 0.0 {
-                                _ if row.at_bound => "at its bound".to_owned(),
-                                true => format!("{:.2e}", row.sigma),
-                                false => "not fitted".to_owned(),
+                            if row.at_bound {
+                                "at its bound".to_owned()
+                            } else if row.sigma > 0.0 {
+                                format!("{:.2e}", row.sigma)
+                            } else {
+                                "not fitted".to_owned()
                             },
                             row.unit.to_owned(),
                         ]

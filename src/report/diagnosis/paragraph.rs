@@ -1,8 +1,8 @@
 //! What was found, in one paragraph: the physics, where it shows, by what evidence, and what comes nearest and is not it.
 
 use crate::diagnose::{Answer, EffectRow, RuledOut};
-use crate::physics::Chance;
-use crate::physics::effects::{FIXED_POINT, named};
+use crate::physics::Effect;
+use crate::physics::effects::named;
 
 /// So many coordinates, and so many effects that come near, are told.
 const TOLD: usize = 3;
@@ -63,11 +63,9 @@ fn evidence(answer: &Answer) -> String {
         let row = effect.evidence;
         let numbers = counted(row.degrees_of_freedom, "number");
         // What is random, or is told by the codes alone, predicts no sample, and takes nothing of chi squared.
-        match named(effect.name).is_some_and(|known| known.chance != Chance::None)
-            || effect.name == FIXED_POINT
-        {
-            true => format!("{:.0} nats", row.ln_bayes_factor),
-            false => format!("{:.0} of chi squared by {numbers}", row.delta_chi2),
+        match named(effect.name).is_none_or(Effect::is_predicted) {
+            true => format!("{:.0} of chi squared by {numbers}", row.delta_chi2),
+            false => format!("{:.0} nats", row.ln_bayes_factor),
         }
     };
     let items = listed(&answer.effects.iter().map(of).collect::<Vec<_>>());

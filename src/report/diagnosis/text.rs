@@ -60,7 +60,7 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         let _ =
             writeln!(text, "Noise beside what the camera states: {shared}. No physics is left out by that.");
     }
-    for words in &diagnosis.judgement.overstated {
+    for words in &diagnosis.overstated {
         let _ = writeln!(
             text,
             "The camera states more than there is of {words}. What is weaker than it states is not seen."
