@@ -32,13 +32,14 @@ cocotb: setup build ## the core against numpy, as an outside user would test it
 	@bash scripts/hdl-tools.sh cocotb
 	@bash tb/cocotb/all.sh $(VURIS)
 
+# One profile for all: what lints, documentation and program have in common is built once.
 test: setup ## every check: format, lints, tests, documentation, generated files
 	@bash scripts/hdl-tools.sh style cocotb fusesoc
 	cargo fmt --check
-	cargo clippy --all-targets --locked -- -D warnings
+	cargo clippy --release --all-targets --locked -- -D warnings
 	cargo build --release --locked
 	cargo test --release --locked
-	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --locked
+	RUSTDOCFLAGS='-D warnings' cargo doc --release --no-deps --locked
 	$(VURIS) generate --spec vuris --out generated --check
 
 generate: build ## write generated/ anew
