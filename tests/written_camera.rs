@@ -113,6 +113,46 @@ fn what_is_more_than_the_camera_includes_is_found() {
     }
 }
 
+/// Of effects whose strength has one sign, too: what the camera includes, what there is, the first parameter, and what is said to be taken away.
+const LESS: [(&str, &[&str], &str, f64); 4] = [
+    ("image_lag:share=0.03", &["--effect", "image_lag:share=0.02"], "share", -0.01),
+    // There is none of it.
+    ("charge_crosstalk:share=0.02", &[], "share", -0.02),
+    ("lens_scatter:share=0.03", &["--effect", "lens_scatter:share=0.01"], "share", -0.02),
+    (
+        "illumination_baseline:squared_baseline_m2=0.02",
+        &["--effect", "illumination_baseline:squared_baseline_m2=0.005"],
+        "squared_baseline_m2",
+        -0.015,
+    ),
+];
+
+#[test]
+fn what_the_camera_includes_too_much_of_is_taken_away() {
+    let folder = tempfile::tempdir().unwrap();
+    for (included, options, key, expected) in LESS {
+        let (name, _) = included.split_once(':').unwrap();
+        let campaign = campaign(&folder.path().join(name), &[&["--seed", "4"], options].concat());
+        include(&campaign, included);
+        let verdict = verdict_and_camera(&campaign);
+        assert_eq!(
+            (names(&verdict), verdict["verdict"].as_str()),
+            (vec![name.to_owned()], Some("explained")),
+            "{verdict:#}"
+        );
+        let (value, sigma) = parameter(&verdict, key);
+        // One after the other they are not quite their sum.
+        assert!((value - expected).abs() < 5.0 * sigma + 0.05 * expected.abs(), "{name}: {value} +- {sigma}");
+        assert!(
+            verdict["effects"][0]["sentence"].as_str().unwrap().contains("too much of it"),
+            "{verdict:#}"
+        );
+        // Both stand in the camera that is written, and nothing is left to find.
+        let after = verdict_and_camera(&campaign);
+        assert_eq!(after["verdict"], "clean", "{name}: {after:#}");
+    }
+}
+
 /// Adds what `campaign`'s camera includes.
 fn include(campaign: &Path, effect: &str) {
     let camera = campaign.join("camera.toml");

@@ -18,6 +18,11 @@ pub fn injection(text: &str) -> Result<Active> {
 /// # Errors
 /// As [`injection`].
 pub fn injection_among(text: &str, library: &[&'static Effect]) -> Result<Active> {
+    injection_beside(text, library, &[])
+}
+
+/// The same beside what a camera has `included` already: where strengths alone tell an effect, so much may be less than is included.
+fn injection_beside(text: &str, library: &[&'static Effect], included: &[Active]) -> Result<Active> {
     let (name, settings) = text.split_once(':').unwrap_or((text, ""));
     let effect = effects::named_among(name, library).ok_or_else(|| {
         let names: Vec<&str> = EFFECTS.iter().chain(library).map(|effect| effect.name).collect();
@@ -34,7 +39,12 @@ pub fn injection_among(text: &str, library: &[&'static Effect]) -> Result<Active
             Problem::at("--effect", format_args!("{name}: {setting}")).expected("parameter=value")
         })?;
         let number = place(effect, parameter)?;
-        values[number] = within(effect, &effect.parameters[number], value)?;
+        let of_effect = included.iter().filter(|active| std::ptr::eq(active.effect, effect));
+        let parameter = &effect.parameters[number];
+        let is_summed = effect.is_told_by_strengths() && effect.is_predicted() && !parameter.is_shape();
+        let before =
+            of_effect.filter(|_| is_summed).map(|active| active.values[number] - parameter.off).sum();
+        values[number] = within(effect, parameter, before, value)?;
     }
     Ok(Active { effect, values })
 }
@@ -48,8 +58,14 @@ fn place(effect: &Effect, parameter: &str) -> Result<usize> {
     })
 }
 
-fn within(effect: &Effect, parameter: &Parameter, text: &str) -> Result<f64> {
+/// What takes away what there is may take away more by so much of it: sums are rounded.
+const ROUNDING: f64 = 1e-9;
+
+/// The value that `text` says, which is within bounds by itself or together with what there is `before`.
+fn within(effect: &Effect, parameter: &Parameter, before: f64, text: &str) -> Result<f64> {
     let (low, high) = parameter.bounds;
+    let before = (1.0 + ROUNDING) * before;
+    let (low, high) = (low - before.max(0.0), high - before.min(0.0));
     // There is no half of a bit.
     let is_whole = parameter.unit == "bit";
     let fits = |value: &f64| (low..=high).contains(value) && (!is_whole || value.fract() == 0.0);
@@ -64,14 +80,17 @@ fn within(effect: &Effect, parameter: &Parameter, text: &str) -> Result<f64> {
 /// The effects that `camera` includes with values, of the registry or a `library`, those that act in `recording`.
 ///
 /// # Errors
-/// An effect that is not known, or a value that it cannot have.
+/// An effect that is not known, or a value that it cannot have beside those that stand before it.
 pub fn camera_effects(camera: &Camera, recording: &str, library: &[&'static Effect]) -> Result<Vec<Active>> {
-    let mut effects = Vec::new();
+    let (mut effects, mut all) = (Vec::new(), Vec::new());
     for text in &camera.effects {
         let (effect, recordings) = text.split_once('@').unwrap_or((text, ""));
-        let active = injection_among(effect, library)
+        let acts = recordings.is_empty() || recordings.split(',').any(|known| known == recording);
+        let beside = if acts { &effects } else { &all };
+        let active = injection_beside(effect, library, beside)
             .map_err(|problem| problem.moved_to(format_args!("camera.toml: physics.effects: {text}")))?;
-        if recordings.is_empty() || recordings.split(',').any(|known| known == recording) {
+        all.push(active.clone());
+        if acts {
             effects.push(active);
         }
     }
@@ -120,6 +139,34 @@ mod tests {
             let refusal = injection(text).unwrap_err().to_string();
             assert!(refusal.contains(words), "{refusal}");
         }
+    }
+
+    #[test]
+    fn a_camera_takes_away_no_more_than_it_includes() {
+        let read = |effects: &[&str], recording: &str| {
+            let effects = effects.iter().map(|&effect| effect.to_owned()).collect();
+            let camera = Camera { effects, ..practice_camera(Geometry { width: 24, height: 18 }) };
+            camera_effects(&camera, recording, &[]).map(|effects| effects.len())
+        };
+        let (more, less, all) = ("image_lag:share=0.03", "image_lag:share=-0.01", "image_lag:share=-0.03");
+        assert_eq!(read(&[more, less], "a").ok(), Some(2));
+        assert_eq!(read(&["image_lag:share=0.01", "image_lag:share=0.02", all], "a").ok(), Some(3));
+        // What stands after it, in another recording, or is another effect, is not there.
+        for effects in [
+            &[less, more][..],
+            &[more, less, all],
+            &["image_lag:share=0.03@b", less],
+            &["lens_scatter:share=0.03", less],
+        ] {
+            let refusal = read(effects, "a").unwrap_err().to_string();
+            assert!(refusal.contains("expected: a number from "), "{effects:?}: {refusal}");
+        }
+        // Where it does not act it is read beside all that there is.
+        let only = "image_lag:share=-0.01@b";
+        assert_eq!([read(&[more, only], "a").ok(), read(&[more, only], "b").ok()], [Some(1), Some(2)]);
+        // Of a path its length is another one's.
+        let path = "multipath_interference:relative_amplitude";
+        assert!(read(&[&format!("{path}=0.1"), &format!("{path}=-0.05")], "a").is_err());
     }
 
     #[test]

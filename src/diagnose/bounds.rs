@@ -7,7 +7,7 @@ use crate::physics::Parameter;
 /// A value that is nearer to its bound, as a share of all that it may be, is at it: the fit would have gone on.
 const AT_BOUND: f64 = 1e-6;
 
-/// Whether a `value` is at the bound of its parameter, where signals go up to `full_scale_dn`; what is off is not.
+/// Whether a `value`, with what the camera includes of it, is at the bound of its parameter, where signals go up to `full_scale_dn`; what is off is not.
 pub fn is_at_bound(parameter: &Parameter, value: f64, full_scale_dn: f64) -> bool {
     let (low, high) = parameter.bounds_within(full_scale_dn);
     let near = AT_BOUND * (high - low);
@@ -19,7 +19,7 @@ pub fn is_bounded(fit: &Fit) -> bool {
     let of_column = |column: &Column| {
         let piece = &fit.pieces[column.piece];
         let parameter = &piece.effect.parameters[column.parameter];
-        let value = piece.values[column.parameter];
+        let value = piece.in_all(column.parameter);
         !parameter.is_shape() && is_at_bound(parameter, value, fit.pixels.full_scale_dn)
     };
     fit.columns.iter().any(of_column)

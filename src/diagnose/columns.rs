@@ -123,7 +123,8 @@ impl<'a> Tangents<'a> {
                 } else {
                     let mut values = piece.values.clone();
                     // Away from a bound.
-                    let towards = if values[column.parameter] >= parameter.bounds.1 { -1.0 } else { 1.0 };
+                    let (_, high) = piece.bounds_within(column.parameter, f64::INFINITY);
+                    let towards = if values[column.parameter] >= high { -1.0 } else { 1.0 };
                     let step = towards
                         * match parameter.is_shape() {
                             true => SHAPE_STEP * parameter.typical.min(values[column.parameter].abs()),

@@ -32,7 +32,11 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
     let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp() + alias);
     EffectRow {
         name: named.name,
-        sentence: format!("{sentence}{}{}", also_seen(&images), beside_included(data, named.name)),
+        sentence: format!(
+            "{sentence}{}{}",
+            also_seen(&images),
+            beside_included(data, &judgement.fit.pieces, named.name)
+        ),
         probability,
         alias_risk: alias * probability,
         also_possible,
@@ -56,10 +60,13 @@ pub fn in_all(data: &Data, name: &str, strength: Strength) -> Strength {
     Strength { value, sigma: strength.sigma * strength.value / value }
 }
 
-/// What a sentence says besides, where the camera includes the effect called `name` with a value.
-fn beside_included(data: &Data, name: &str) -> &'static str {
+/// What a sentence says besides, where the camera includes the effect called `name`, of which these are the `pieces`, with a value.
+fn beside_included(data: &Data, pieces: &[Piece], name: &str) -> &'static str {
     let is_included = data.described.effects.iter().any(|text| effect_name(text) == name);
+    let mut of = pieces.iter().filter(|piece| piece.effect.name == name).peekable();
+    let is_less = of.peek().is_some() && of.all(Piece::takes_away);
     match is_included {
+        true if is_less => " The camera includes too much of it: this is what is to be taken away.",
         true if data.effect(name).is_some_and(Effect::is_predicted) => {
             " This is beside what the camera includes of it."
         }
@@ -82,7 +89,8 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) 
             let sigma = column.map_or(0.0, |column| fit.sigma(column));
             let sigma = sigma.hypot(spread(images, fit, number, parameter));
             let value = piece.values[parameter];
-            let at_bound = column.is_some() && is_at_bound(known, value, fit.pixels.full_scale_dn);
+            let in_all = piece.in_all(parameter);
+            let at_bound = column.is_some() && is_at_bound(known, in_all, fit.pixels.full_scale_dn);
             if column.is_none() && !known.is_shape() {
                 continue;
             }

@@ -309,10 +309,10 @@ impl Round {
         for (column, step) in self.columns.iter().zip(theta.iter()) {
             let piece = &mut pieces[column.piece];
             let parameter = &piece.effect.parameters[column.parameter];
+            let (low, high) = piece.bounds_within(column.parameter, pixels.full_scale_dn);
             let value = &mut piece.values[column.parameter];
             // A shape moves by a third of itself at most: its tangent holds nearby.
             let most = if parameter.is_shape() { value.abs() / 3.0 } else { f64::INFINITY };
-            let (low, high) = parameter.bounds_within(pixels.full_scale_dn);
             *value = (*value + step.clamp(-most, most)).clamp(low, high);
         }
         free_shapes(&mut pieces);
@@ -354,7 +354,7 @@ fn bounded_step(
         let goes_beyond = |number: &usize| {
             let piece = &pieces[columns[*number].piece];
             let parameter = columns[*number].parameter;
-            let (low, high) = piece.effect.parameters[parameter].bounds_within(full_scale_dn);
+            let (low, high) = piece.bounds_within(parameter, full_scale_dn);
             let (value, step) = (piece.values[parameter], theta[*number]);
             reach[*number] > 0.0 && (step < 0.0 && value <= low || step > 0.0 && value >= high)
         };

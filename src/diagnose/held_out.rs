@@ -317,7 +317,14 @@ mod tests {
         };
         let whole = left_out(&everywhere) - left_out(&clean);
         let baseline = unfitted(&upper, noise);
-        let piece = Piece { effect, values: effect.off(), free: vec![0], takes: vec![0], finite: false };
+        let piece = Piece {
+            effect,
+            values: effect.off(),
+            free: vec![0],
+            takes: vec![0],
+            finite: false,
+            included: Vec::new(),
+        };
         let after = fit(&upper, Some(&baseline), vec![piece], noise, &|_| true);
         let both =
             chi2(held_out(&upper, alone(&baseline, noise), alone(&after, noise)).after) - left_out(&clean);

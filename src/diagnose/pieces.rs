@@ -1,6 +1,7 @@
 //! What may be added to the baseline: effects with values, which of them are fitted, and to which recordings they belong.
 
 use super::data::Data;
+use super::included::included_of;
 use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
 use crate::physics::{Active, EFFECTS, Effect, Parameter};
@@ -19,12 +20,37 @@ pub struct Piece {
     pub takes: Vec<usize>,
     /// Whether its tangent is taken from off to `values`, because it starts with a corner.
     pub finite: bool,
+    /// How much of each number the camera's simulation includes where the effect acts, and what may be too much. Empty where that is nothing.
+    pub included: Vec<f64>,
 }
 
 impl Piece {
     /// How many of its shapes are fitted.
     pub fn shapes(&self) -> usize {
         self.free.iter().filter(|&&number| self.effect.parameters[number].is_shape()).count()
+    }
+
+    /// Least and greatest value of its parameter `number` where signals go up to `full_scale_dn`: together with what the camera includes it is within the
+    /// parameter's bounds.
+    pub fn bounds_within(&self, number: usize, full_scale_dn: f64) -> (f64, f64) {
+        let (low, high) = self.effect.parameters[number].bounds_within(full_scale_dn);
+        let included = self.included_of(number);
+        (low - included, high - included)
+    }
+
+    /// Its parameter `number`, with what the camera includes of it.
+    pub fn in_all(&self, number: usize) -> f64 {
+        self.values[number] + self.included_of(number)
+    }
+
+    /// Whether it takes away of what the camera includes, and adds nothing.
+    pub fn takes_away(&self) -> bool {
+        let signs = || self.free.iter().map(|&number| self.values[number] * self.included_of(number));
+        signs().all(|sign| sign <= 0.0) && signs().any(|sign| sign < 0.0)
+    }
+
+    fn included_of(&self, number: usize) -> f64 {
+        self.included.get(number).copied().unwrap_or(0.0)
     }
 
     /// The same with this share of every strength.
@@ -213,6 +239,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
             free: vec![0],
             takes: (0..data.takes.len()).collect(),
             finite: true,
+            included: Vec::new(),
         };
         return values.iter().map(|value| Variant { pieces: vec![piece(value)], rarity: 1.0 }).collect();
     }
@@ -291,7 +318,8 @@ fn pieces(
                 Grouping::Take => true,
             };
             let free = strengths.iter().copied().filter(there).collect();
-            Piece { effect, values: values.to_vec(), free, takes, finite: false }
+            let included = included_of(data, effect, &takes);
+            Piece { effect, values: values.to_vec(), free, takes, finite: false, included }
         })
         .collect()
 }

@@ -67,7 +67,14 @@ mod tests {
 
     fn piece(name: &str, free: &[usize]) -> Piece {
         let effect = effects::named(name).unwrap();
-        Piece { effect, values: effect.off(), free: free.to_vec(), takes: vec![0, 1], finite: false }
+        Piece {
+            effect,
+            values: effect.off(),
+            free: free.to_vec(),
+            takes: vec![0, 1],
+            finite: false,
+            included: Vec::new(),
+        }
     }
 
     #[test]

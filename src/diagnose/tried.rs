@@ -70,7 +70,14 @@ mod tests {
 
     fn piece(name: &str, free: &[usize], takes: &[usize]) -> Piece {
         let effect = effects::named(name).unwrap();
-        Piece { effect, values: effect.off(), free: free.to_vec(), takes: takes.to_vec(), finite: false }
+        Piece {
+            effect,
+            values: effect.off(),
+            free: free.to_vec(),
+            takes: takes.to_vec(),
+            finite: false,
+            included: Vec::new(),
+        }
     }
 
     fn candidate(ways: &[&[Piece]]) -> Candidate {

@@ -201,6 +201,11 @@ impl Effect {
         self.chance == Chance::None && self.name != effects::FIXED_POINT
     }
 
+    /// Whether its strengths, and which of a few kinds it is, say all of it.
+    pub fn is_told_by_strengths(&self) -> bool {
+        self.parameters.iter().all(|parameter| parameter.is_choice || !parameter.is_shape())
+    }
+
     /// The values at which it does nothing.
     pub fn off(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.off).collect()
