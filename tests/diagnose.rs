@@ -337,6 +337,14 @@ fn what_is_passed_over_is_said_and_other_cameras_are_refused() {
     std::fs::write(campaign.join("wdft-rail/camera.toml"), other).unwrap();
     let (good, text) = diagnosed();
     assert!(!good && text.contains("wdft-rail: has another camera.toml than four-motion"), "{text}");
+    // A recording that is there twice.
+    std::fs::remove_file(campaign.join("wdft-rail/camera.toml")).unwrap();
+    std::fs::remove_file(half.join("frames.npy")).unwrap();
+    for file in ["frames.npy", "mask.npy", "sets.csv", "recording.toml"] {
+        std::fs::copy(campaign.join("four-rail").join(file), half.join(file)).unwrap();
+    }
+    let (good, text) = diagnosed();
+    assert!(!good && text.contains("has the same frames as four-rail, code for code"), "{text}");
 }
 
 /// The practice campaigns of the project's recordings, where they are at hand: `VURIS_PRACTICE`, or beside the repository.
@@ -414,6 +422,40 @@ fn recordings_without_camera_and_positions_are_diagnosed() {
     let noise = &verdict["provenance"]["noise"];
     let slope = noise["slope_dn"].as_f64().unwrap();
     assert!((slope - 1.0 / 12.0).abs() < 0.03, "{noise}");
+}
+
+/// Nothing that is read is lost, and nothing is found out after a long run that could have been said before.
+#[test]
+fn files_that_cannot_be_written_are_refused_before_anything_is_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = folder.path().join("campaign");
+    let place = campaign.to_str().unwrap();
+    let (good, text) =
+        vuris(&["simulate", "--size", "8x6", "--recordings", "four-rail", "--seed", "1", "--out", place]);
+    assert!(good, "{text}");
+    let path = |name: &str| campaign.join(name).to_str().unwrap().to_owned();
+    let (sets, camera) = (path("four-rail/sets.csv"), path("camera.toml"));
+    let (same, nowhere) = (path("same"), path("nowhere/a.json"));
+    let before = std::fs::read(&sets).unwrap();
+    for (options, words) in [
+        (&["--json", &sets][..], "a file that is read"),
+        (&["--report", &camera], "a file that is read"),
+        (&["--write-camera", &sets], "a file that is read"),
+        (&["--json", &same, "--report", &same], "the file of --json, too"),
+        (&["--report", "-"], "is not a file's name"),
+        (&["--report", place], "is a folder"),
+        (&["--json", &nowhere], "its folder is not there"),
+    ] {
+        let (good, text) = vuris(&[&["diagnose", place], options].concat());
+        assert!(!good && text.contains(words) && text.contains("way out: "), "{options:?}: {text}");
+    }
+    assert_eq!(std::fs::read(&sets).unwrap(), before);
+    assert!(!campaign.join("same").exists());
+    let again = format!("{place}/.");
+    let (good, text) = vuris(&["diagnose", place, &again]);
+    assert!(!good && text.contains("is given twice"), "{text}");
+    let (good, text) = vuris(&["diagnose", place, "--write-camera", &camera]);
+    assert!(good, "{text}");
 }
 
 /// The short form of `make study`: clean campaigns raise no alarm, and strong effects that nothing in the registry makes get no name. What is counted

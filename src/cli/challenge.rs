@@ -1,6 +1,7 @@
 //! `vuris challenge`
 
 use super::fingerprint::fingerprint;
+use super::place::at;
 use super::print::{counted, say};
 use super::progress;
 use crate::artifact::write_file;
@@ -14,7 +15,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 /// Campaigns with concealed effects from a second, independent generator: make them, answer them, score the answers
@@ -172,19 +173,6 @@ fn is_sealed(folder: &Path, seal: &Seal) -> Result<()> {
     Err(Problem::in_file(&campaigns.join(&seal.case), format_args!("the campaign {what}"))
         .expected(format_args!("files whose fingerprint is {}", seal.campaign_sha256))
         .remedy("take the campaigns as `vuris challenge make` wrote them"))
-}
-
-/// The place that `path` means: from the root on, links followed as far as there is something, without `.` and `..`.
-fn at(path: &Path) -> PathBuf {
-    let mut place = PathBuf::new();
-    for part in std::path::absolute(path).unwrap_or_else(|_| path.to_owned()).components() {
-        match part {
-            Component::ParentDir => _ = place.pop(),
-            part => place.push(part),
-        }
-        place = place.canonicalize().unwrap_or(place);
-    }
-    place
 }
 
 impl Answers {

@@ -2,6 +2,7 @@
 
 use super::campaign::{recordings_in, remark_on_physics, unfinished_in};
 use super::library::effects_in;
+use super::place::{at, may_be_written};
 use super::print::{counted, remark, say};
 use super::progress;
 use crate::artifact::write_file;
@@ -38,6 +39,9 @@ pub(super) struct Diagnose {
     simpler: Option<PathBuf>,
 }
 
+/// What a recording consists of.
+const FILES: [&str; 4] = ["recording.toml", "sets.csv", "frames.npy", "mask.npy"];
+
 impl Diagnose {
     pub(super) fn run(self) -> Result<ExitCode> {
         if self.campaigns.len() > 1
@@ -50,6 +54,7 @@ impl Diagnose {
             .expected("one campaign for one file")
             .remedy("diagnose them one by one"));
         }
+        self.check_files()?;
         let library = effects_in(self.library.as_deref())?;
         for campaign in &self.campaigns {
             let data = read(campaign, &library)?;
@@ -88,6 +93,37 @@ impl Diagnose {
         }
         Ok(ExitCode::SUCCESS)
     }
+
+    /// Refuses campaigns that are given twice, and files that cannot be written or would be lost.
+    fn check_files(&self) -> Result<()> {
+        for (number, campaign) in self.campaigns.iter().enumerate() {
+            if self.campaigns[..number].iter().any(|other| at(other) == at(campaign)) {
+                return Err(Problem::in_file(campaign, "is given twice")
+                    .expected("each campaign once")
+                    .remedy("leave one of them out"));
+            }
+        }
+        let json = self.json.as_deref().filter(|file| *file != Path::new("-"));
+        let [report, simpler, camera] =
+            [&self.report, &self.simpler, &self.write_camera].map(Option::as_deref);
+        let others = [("--json", json), ("--report", report), ("--simpler", simpler)];
+        let given = |(option, file)| Option::map(file, |file: &Path| (option, file));
+        let others: Vec<(&str, &Path)> = others.into_iter().filter_map(given).collect();
+        let all: Vec<(&str, &Path)> =
+            others.iter().copied().chain(given(("--write-camera", camera))).collect();
+        let mut read: Vec<PathBuf> = self.library.iter().cloned().collect();
+        let mut cameras = Vec::new();
+        for campaign in &self.campaigns {
+            cameras.push(campaign.join("camera.toml"));
+            for recording in recordings_in(campaign)? {
+                cameras.push(recording.join("camera.toml"));
+                read.extend(FILES.map(|name| recording.join(name)));
+            }
+        }
+        may_be_written(&all, &read)?;
+        // The campaign's own camera may be written anew, by what writes cameras.
+        may_be_written(&others, &cameras)
+    }
 }
 
 /// The recordings in `campaign`, with a remark on those that say nothing, and on masks that are not one.
@@ -102,6 +138,12 @@ fn read(campaign: &Path, library: &[&'static Effect]) -> Result<Data> {
         remark(format_args!("{}: says nothing: all its codes are 0, or at full scale", take.name));
     }
     if let Some((first, others)) = recordings.split_first() {
+        if !data.assumed.still_scene && !data.target.contains(&true) {
+            remark(format_args!(
+                "{}: mask.npy marks no pixel: nothing is known to see the target",
+                first.name
+            ));
+        }
         for other in others.iter().filter(|other| other.mask != first.mask) {
             remark(format_args!(
                 "{}: has another mask.npy than {}, whose mask counts for all (and where pixels clearly show something else, that)",

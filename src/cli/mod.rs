@@ -15,6 +15,7 @@ mod library;
 mod mutate;
 mod option;
 mod paper;
+mod place;
 mod print;
 mod process;
 mod progress;

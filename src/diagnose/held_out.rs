@@ -21,8 +21,8 @@ pub struct HeldOut {
     pub before: Agreement,
     /// With the effects that were found.
     pub after: Agreement,
-    /// Each scheme's frames a set, and the distance's RMS before and after, m.
-    pub by_frames: Vec<(usize, f64, f64)>,
+    /// Each scheme's frames a set, and the agreement of its sets before and after.
+    pub by_frames: Vec<(usize, Agreement, Agreement)>,
     /// The improvement of the likelihood over its scatter from set to set; of few sets, from block to block of the image.
     pub z: f64,
     /// Sets that were predicted.
@@ -93,7 +93,7 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
         let of = |seen: &[Seen]| {
             let of: Vec<Seen> =
                 seen.iter().filter(|seen| data.takes[seen.take].frames == frames).cloned().collect();
-            agreement(&of).distance_rms_m
+            agreement(&of)
         };
         (frames, of(&old), of(&new))
     });

@@ -28,12 +28,14 @@ mod gram;
 mod grid;
 mod held_frames;
 mod held_out;
+mod held_out_row;
 mod images;
 mod in_order;
 mod included;
 mod jitters;
 mod judge;
 mod lamps;
+mod left_out;
 mod lines;
 mod location;
 mod marginal;
@@ -41,6 +43,7 @@ mod mismatch;
 mod misnamed;
 mod next;
 mod noise;
+mod noisy_pixels;
 mod overtones;
 mod parts;
 mod pass;
@@ -84,7 +87,9 @@ pub use conclusion::Verdict;
 pub use data::{Assumed, Data, Take};
 pub use fit::Fit;
 pub use held_out::HeldOut;
+pub use held_out_row::HeldOutRow;
 pub use judge::Judgement;
+pub use left_out::LeftOut;
 pub use location::{Located, Location};
 pub use mismatch::Place;
 pub use noise::Noise;
@@ -92,8 +97,9 @@ pub use power::Detectable;
 pub use profiles::{Point, Profile};
 pub use search::{Found, Named};
 pub use seen::Agreement;
+
 pub use simpler::Simpler;
-pub use verdict::{Answer, Diagnosis, EffectRow, HeldOutRow, LocatedRow, RuledOut, diagnose};
+pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, RuledOut, diagnose};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise, and what it includes of noise and errors at random.
 pub fn stated_noise(data: &Data) -> Noise {

@@ -77,7 +77,8 @@ pub fn agreement(sets: &[Seen]) -> Agreement {
         chi2_per_dof: is_known(sets.iter().map(|set| set.chi2).sum::<f64>() / samples),
         rms_dn: is_known((sets.iter().map(|set| set.square_dn2).sum::<f64>() / samples).sqrt()),
         frame_mean_rms_dn: is_known((sets.iter().map(|set| set.means_dn2).sum::<f64>() / frames).sqrt()),
-        distance_rms_m: (distances.iter().map(|d| d * d).sum::<f64>() / distances.len().max(1) as f64).sqrt(),
+        // Without any it is 0 / 0: no number.
+        distance_rms_m: (distances.iter().map(|d| d * d).sum::<f64>() / distances.len() as f64).sqrt(),
     }
 }
 

@@ -6,9 +6,11 @@ use super::conclusion::Verdict;
 use super::data::Data;
 use super::effect_row::effect_row;
 use super::evidence::tail;
-use super::fit::{fit, unfitted};
+use super::fit::unfitted;
 use super::held_out::{HeldOut, held_out};
+use super::held_out_row::HeldOutRow;
 use super::judge::{Judgement, judge};
+use super::left_out::{LeftOut, without_outliers};
 use super::mismatch::Place;
 use super::next::next;
 use super::noise::Noise;
@@ -17,7 +19,7 @@ use super::pieces::{OF_NEIGHBOURS, OF_STILL_SCENES};
 use super::power_at_random::detectable_at_random;
 use super::random::JITTERS;
 use super::search::{Found, Named};
-use super::settle::{outlying, with_mask};
+use super::settle::with_mask;
 use super::stated_noise;
 use crate::frames::Geometry;
 use crate::physics::effects::FIXED_POINT;
@@ -33,6 +35,8 @@ pub struct Diagnosis {
     pub held_out: HeldOut,
     /// What the camera states or includes of noise and errors at random that is not there, in words.
     pub overstated: Vec<String>,
+    /// What was left out before anything was looked for.
+    pub left_out: LeftOut,
     /// The answer.
     pub answer: Answer,
     /// The pixels that were looked at, as a sensor of their own.
@@ -108,22 +112,6 @@ pub struct RuledOut {
 
 #[derive(Debug, Clone, Serialize)]
 #[allow(missing_docs)]
-pub struct HeldOutRow {
-    pub chi2_per_dof_before: f64,
-    pub chi2_per_dof_after: f64,
-    pub rms_dn_before: f64,
-    pub rms_dn_after: f64,
-    pub frame_mean_rms_dn_before: f64,
-    pub frame_mean_rms_dn_after: f64,
-    pub distance_rms_m_before: f64,
-    pub distance_rms_m_after: f64,
-    pub z: f64,
-    pub sets: usize,
-    pub by_frames: Vec<Value>,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
 pub struct Remainder {
     pub share: f64,
     pub coordinate: Option<&'static str>,
@@ -185,13 +173,8 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     let masked = if data.assumed.still_scene { None } else { with_mask(data, noise) };
     let (data, moved) = masked.as_ref().map_or((data, 0), |(data, moved)| (data, *moved));
     let baseline = unfitted(data, noise);
-    let outlying = outlying(&baseline.series);
-    let left_out = outlying.len();
-    let fewer = data.without(&outlying);
-    let (data, baseline) = match &fewer {
-        Some(fewer) => (fewer, fit(fewer, Some(&baseline), Vec::new(), noise, &|_| true)),
-        None => (data, baseline),
-    };
+    let (fewer, baseline, left_out) = without_outliers(data, baseline, noise);
+    let data = fewer.as_ref().unwrap_or(data);
     let mut judgement = judge(data, baseline, noise);
     let held_out = held_out(data, judgement.without(), judgement.with());
     let is_more = held_out.after.chi2_per_dof > EXPLAINED || is_bounded(&judgement.fit);
@@ -200,10 +183,12 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     }
     let mut answer = answer(data, &judgement, &held_out);
     let overstated = overstated(data, &judgement, held_out.after.chi2_per_dof);
-    answer.provenance["sets_left_out"] = json!(left_out);
+    answer.provenance["sets_left_out"] = json!(left_out.sets());
+    answer.provenance["sets_left_out_of"] = left_out.json();
+    answer.provenance["pixels_left_out"] = json!(left_out.pixels());
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     answer.provenance["overstated"] = json!(overstated);
-    Diagnosis { judgement, held_out, overstated, answer, geometry: data.geometry() }
+    Diagnosis { judgement, held_out, overstated, left_out, answer, geometry: data.geometry() }
 }
 
 /// Sets that were not seen are explained where they have no more chi squared a sample: noise alone has 1.
@@ -270,25 +255,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
         located: if is_clean { Vec::new() } else { judgement.places.iter().map(seen).collect() },
         effects: named.iter().map(|named| effect_row(data, judgement, named)).collect(),
         ruled_out: ruled_out(judgement),
-        held_out: HeldOutRow {
-            chi2_per_dof_before: held_out.before.chi2_per_dof,
-            chi2_per_dof_after: held_out.after.chi2_per_dof,
-            rms_dn_before: held_out.before.rms_dn,
-            rms_dn_after: held_out.after.rms_dn,
-            frame_mean_rms_dn_before: held_out.before.frame_mean_rms_dn,
-            frame_mean_rms_dn_after: held_out.after.frame_mean_rms_dn,
-            distance_rms_m_before: held_out.before.distance_rms_m,
-            distance_rms_m_after: held_out.after.distance_rms_m,
-            z: held_out.z,
-            sets: held_out.sets,
-            by_frames: held_out
-                .by_frames
-                .iter()
-                .map(|(frames, before, after)| {
-                    json!({"frames": frames, "distance_rms_m_before": before, "distance_rms_m_after": after})
-                })
-                .collect(),
-        },
+        held_out: HeldOutRow::of(held_out),
         remainder: Remainder::of(judgement),
         next_recording: next(data, judgement)
             .into_iter()
@@ -298,10 +265,7 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
                 expected_rho: rounded(next.rho),
             })
             .collect(),
-        invisible: invisible(data, found, &at_random)
-            .into_iter()
-            .filter(|row| !is_named(row.name))
-            .collect(),
+        invisible: invisible(data, found, &at_random).into_iter().filter(|row| !is_named(row.name)).collect(),
         smallest_detectable: smallest.collect(),
         provenance: json!({
             "program": concat!("vuris ", env!("CARGO_PKG_VERSION")),

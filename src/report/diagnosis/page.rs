@@ -3,7 +3,7 @@
 use super::curves::curve;
 use super::paragraph::paragraph;
 use super::text::probability;
-use crate::diagnose::{Alone, Diagnosis, Location};
+use crate::diagnose::{Agreement, Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
 use crate::report::pixel_image::png_data_uri;
 use askama::Template;
@@ -28,6 +28,7 @@ struct Page<'a> {
     maps: Vec<(&'a str, String)>,
     scale: String,
     curves: Vec<String>,
+    left_out: Vec<String>,
     remainder: String,
     provenance: String,
 }
@@ -53,7 +54,18 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
     let held = &answer.held_out;
     let shown = |value: f64, digits: usize| match value.is_finite() {
         true => format!("{value:.digits$}"),
-        false => "nothing can be held out".to_owned(),
+        false => "not known".to_owned(),
+    };
+    let several = diagnosis.held_out.by_frames.len() > 1;
+    let of_scheme = |(frames, before, after): &(usize, Agreement, Agreement)| {
+        [
+            ("chi squared a sample", before.chi2_per_dof, after.chi2_per_dof, 5),
+            ("raw frames, DN RMS", before.rms_dn, after.rms_dn, 4),
+            ("distance of a set, mm RMS", 1e3 * before.distance_rms_m, 1e3 * after.distance_rms_m, 3),
+        ]
+        .map(|(what, before, after, digits)| {
+            vec![format!("{what}, {frames} frames a set"), shown(before, digits), shown(after, digits)]
+        })
     };
     let page = Page {
         title: campaign.display().to_string(),
@@ -108,10 +120,13 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
             vec!["raw frames, DN RMS".to_owned(), shown(held.rms_dn_before, 4), shown(held.rms_dn_after, 4)],
             vec![
                 "distance of a set, mm RMS".to_owned(),
-                format!("{:.3}", 1e3 * held.distance_rms_m_before),
-                format!("{:.3}", 1e3 * held.distance_rms_m_after),
+                shown(1e3 * held.distance_rms_m_before, 3),
+                shown(1e3 * held.distance_rms_m_after, 3),
             ],
-        ],
+        ]
+        .into_iter()
+        .chain(diagnosis.held_out.by_frames.iter().filter(|_| several).flat_map(of_scheme))
+        .collect(),
         evidence: evidence(diagnosis),
         next: answer
             .next_recording
@@ -141,6 +156,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
         maps: vec![("before", map(before)), ("after", map(after))],
         scale: format!("{limit:.2}"),
         curves: before.curves.iter().zip(&after.curves).map(|(before, after)| curve(before, after)).collect(),
+        left_out: diagnosis.left_out.sentences(),
         remainder: match answer.remainder.coordinate {
             Some(coordinate) => format!(
                 "{:.2} % of the mismatch is left, most of it over {coordinate}.",

@@ -1,7 +1,7 @@
 //! A diagnosis in a screenful.
 
 use super::paragraph::paragraph;
-use crate::diagnose::{Diagnosis, HeldOutRow};
+use crate::diagnose::{Agreement, Diagnosis, HeldOut, HeldOutRow};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -66,7 +66,11 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
             "The camera states more than there is of {words}. What is weaker than it states is not seen."
         );
     }
+    for sentence in diagnosis.left_out.sentences() {
+        let _ = writeln!(text, "Left out: {sentence}");
+    }
     text += &of_held_out(&answer.held_out);
+    text += &of_schemes(&diagnosis.held_out);
     if let Some(coordinate) = answer.remainder.coordinate {
         let share = 100.0 * answer.remainder.share;
         let _ = writeln!(text, "Left: {share:.1} % of the mismatch, most of it over {coordinate}");
@@ -108,12 +112,32 @@ fn of_held_out(held: &HeldOutRow) -> String {
     )
 }
 
+/// The same of each scheme, where there are several.
+fn of_schemes(held: &HeldOut) -> String {
+    let several = held.by_frames.len() > 1 && held.sets > 0;
+    let of = |(frames, before, after): &(usize, Agreement, Agreement)| {
+        let distance = match after.distance_rms_m.is_finite() {
+            true => format!(
+                ", distance {:.2} -> {:.2} mm RMS",
+                1e3 * before.distance_rms_m,
+                1e3 * after.distance_rms_m
+            ),
+            false => String::new(),
+        };
+        format!(
+            "  {frames} frames a set: chi squared {:.4} -> {:.4}, raw frames {:.3} -> {:.3} DN RMS{distance}\n",
+            before.chi2_per_dof, after.chi2_per_dof, before.rms_dn, after.rms_dn
+        )
+    };
+    held.by_frames.iter().filter(|_| several).map(of).collect()
+}
+
 /// A recording that separates by less does not.
 const ENOUGH_RHO: f64 = 3.0;
 
 /// The error of a set's distance, where there is one.
 fn distance(held: &HeldOutRow) -> String {
-    if held.distance_rms_m_before == 0.0 {
+    if !held.distance_rms_m_before.is_finite() {
         return String::new();
     }
     let [before_mm, after_mm] =

@@ -1,0 +1,111 @@
+//! Pixels that have far more noise of their own than others: hot ones, and ones that flicker (random telegraph noise).
+
+use super::columns::Tangents;
+use super::data::Data;
+use super::fit::Fit;
+use super::noise::Noise;
+use super::places::APART_M;
+use super::whiten::whiten;
+use rayon::prelude::*;
+
+/// What a pixel's residual changes by from a set to the same one again has so many times the variance of the usual pixel's.
+const NOISIER: f64 = 4.0;
+/// The usual pixel's is noise alone: so many times that at most. What is left out of the simulation may change faster, and bright pixels show more of it.
+const USUAL: f64 = 1.5;
+/// More than this share of all pixels, and more than one, is no fault of theirs.
+const FEW: f64 = 0.02;
+/// Of so many changes at least.
+const LEAST: usize = 40;
+
+/// The pixels whose noise is far above that of others; none where they are many, or where no set was taken again. `fit` says what their signal is.
+///
+/// Physics that is left out is the same in a set that is taken again at the same place, and goes from a difference of the two; noise does not.
+pub fn noisy_pixels(data: &Data, fit: &Fit, noise: Noise) -> Vec<usize> {
+    let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
+    let pixels = data.pixels();
+    let sets = data.sets();
+    let is_again = |pair: &&[(usize, usize)]| {
+        let [one, other] = [0, 1].map(|n| {
+            let (take, set) = pair[n];
+            (take, &data.takes[take].moments[set * data.takes[take].frames])
+        });
+        one.0 == other.0
+            && one.1.velocity_m_s == other.1.velocity_m_s
+            && one.1.offset_rad == other.1.offset_rad
+            && (one.1.place_m - other.1.place_m).abs() < APART_M
+    };
+    let again: Vec<&[(usize, usize)]> = sets.windows(2).filter(is_again).collect();
+    let changes = |pair: &&[(usize, usize)]| {
+        let mut sums = vec![(0.0, 0_usize); pixels];
+        let frames = data.takes[pair[0].0].frames;
+        for frame in 0..frames {
+            let [one, other] = [0, 1].map(|n| {
+                let (take, set) = pair[n];
+                let index = set * frames + frame;
+                whiten(data, take, index, &tangents.base(take, index), noise)
+            });
+            let residuals = one.1.iter().zip(&other.1);
+            let counts = one.0.iter().zip(&other.0).map(|(one, other)| *one > 0.0 && *other > 0.0);
+            for ((sum, (one, other)), counts) in sums.iter_mut().zip(residuals).zip(counts) {
+                if counts {
+                    *sum = (sum.0 + 0.5 * (one - other) * (one - other), sum.1 + 1);
+                }
+            }
+        }
+        sums
+    };
+    let add = |mut all: Vec<(f64, usize)>, more: Vec<(f64, usize)>| {
+        all.iter_mut().zip(more).for_each(|(all, more)| *all = (all.0 + more.0, all.1 + more.1));
+        all
+    };
+    let none = || vec![(0.0, 0); pixels];
+    // Sums of counts and of a few squares: their order shows in the last bits, which decide nothing.
+    let sums = again.par_iter().map(changes).reduce(none, add);
+    let variance = |&(square, count): &(f64, usize)| (count >= LEAST).then(|| square / count as f64);
+    let mut all: Vec<f64> = sums.iter().filter_map(variance).collect();
+    all.sort_by(f64::total_cmp);
+    let Some(&usual) = all.get(all.len() / 2) else { return Vec::new() };
+    let is_noisy = |pixel: &usize| variance(&sums[*pixel]).is_some_and(|own| own > NOISIER * usual);
+    let noisy: Vec<usize> = (0..pixels).filter(is_noisy).collect();
+    let most = (FEW * pixels as f64).max(1.0);
+    if usual > USUAL || noisy.len() as f64 > most { Vec::new() } else { noisy }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{injection, taken};
+    use crate::diagnose::fit::unfitted;
+    use crate::diagnose::stated_noise;
+    use crate::frames::Geometry;
+    use crate::physics::Draws;
+
+    /// The pixels that are noisy in recordings with an `effect`, of which these have so many DN of noise more.
+    fn noisy(effect: &str, recordings: &[&str], pixels: &[(usize, f64)]) -> Vec<usize> {
+        let size = Geometry { width: 16, height: 12 };
+        let effects = [injection(effect).unwrap()];
+        let mut data = Data::of(&taken(size, 2, &effects, recordings).unwrap(), Vec::new()).unwrap();
+        for (take, recording) in data.takes.iter_mut().enumerate() {
+            for &(pixel, noise_dn) in pixels {
+                let frames = recording.signal_dn.chunks_exact_mut(size.pixels());
+                let deviates = Draws::of(pixel as u64, take as u64).normal(recording.moments.len());
+                frames.zip(deviates).for_each(|(frame, deviate)| frame[pixel] += (noise_dn * deviate) as f32);
+            }
+        }
+        let noise = stated_noise(&data);
+        noisy_pixels(&data, &unfitted(&data, noise), noise)
+    }
+
+    #[test]
+    fn hot_pixels_are_told_from_quiet_ones_whatever_is_left_out() {
+        let all = ["four-rail", "four-motion"];
+        for effect in ["lens_scatter:share=0", "mixed_pixels", "intensity_nonlinearity", "encoder_cyclic"] {
+            assert_eq!(noisy(effect, &all, &[]), [0; 0], "{effect}");
+            assert_eq!(noisy(effect, &all, &[(37, 60.0), (90, 30.0)]), [37, 90], "{effect}");
+        }
+        // Many are no fault of theirs, and without a set that was taken again nothing is known.
+        let many: Vec<(usize, f64)> = (40..46).map(|pixel| (pixel, 60.0)).collect();
+        assert_eq!(noisy("lens_scatter:share=0", &all, &many), [0; 0]);
+        assert_eq!(noisy("lens_scatter:share=0", &["four-motion"], &[(37, 60.0)]), [0; 0]);
+    }
+}
