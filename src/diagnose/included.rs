@@ -60,7 +60,7 @@ pub fn included_of(data: &Data, effect: &Effect, takes: &[usize]) -> Vec<f64> {
     let of_take = |&take: &usize| {
         let here = data.takes[take].included.iter().filter(|active| std::ptr::eq(active.effect, effect));
         here.fold(vec![0.0; effect.parameters.len()], |sum, active| {
-            let of = sum.iter().zip(&active.values).zip(&effect.parameters[..]);
+            let of = sum.iter().zip(&active.values).zip(effect.parameters);
             let strength = |value: &f64, of: &Parameter| if of.is_shape() { 0.0 } else { value - of.off };
             of.map(|((sum, value), parameter)| sum + strength(value, parameter)).collect()
         })
