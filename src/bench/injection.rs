@@ -39,12 +39,8 @@ fn injection_beside(text: &str, library: &[&'static Effect], included: &[Active]
             Problem::at("--effect", format_args!("{name}: {setting}")).expected("parameter=value")
         })?;
         let number = place(effect, parameter)?;
-        let of_effect = included.iter().filter(|active| std::ptr::eq(active.effect, effect));
-        let parameter = &effect.parameters[number];
-        let is_summed = effect.is_told_by_strengths() && effect.is_predicted() && !parameter.is_shape();
-        let before =
-            of_effect.filter(|_| is_summed).map(|active| active.values[number] - parameter.off).sum();
-        values[number] = within(effect, parameter, before, value)?;
+        let before = Active::in_all(included, effect, number);
+        values[number] = within(effect, &effect.parameters[number], before, value)?;
     }
     Ok(Active { effect, values })
 }
@@ -64,11 +60,13 @@ const ROUNDING: f64 = 1e-9;
 /// The value that `text` says, which is within bounds by itself or together with what there is `before`.
 fn within(effect: &Effect, parameter: &Parameter, before: f64, text: &str) -> Result<f64> {
     let (low, high) = parameter.bounds;
-    let before = (1.0 + ROUNDING) * before;
     let (low, high) = (low - before.max(0.0), high - before.min(0.0));
+    let rounding = ROUNDING * before.abs();
     // There is no half of a bit.
     let is_whole = parameter.unit == "bit";
-    let fits = |value: &f64| (low..=high).contains(value) && (!is_whole || value.fract() == 0.0);
+    let fits = |value: &f64| {
+        (low - rounding..=high + rounding).contains(value) && (!is_whole || value.fract() == 0.0)
+    };
     text.parse().ok().filter(fits).ok_or_else(|| {
         let found = format!("{}: {} = {text}", effect.name, parameter.name);
         let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };

@@ -9,7 +9,7 @@ use crate::artifact::write_file;
 use crate::diagnose::{Data, Diagnosis, camera_with, diagnose};
 use crate::physics::Effect;
 use crate::problem::{Problem, Result};
-use crate::recording::Recording;
+use crate::recording::{FILES, Recording};
 use crate::report::{diagnosis_page, diagnosis_text};
 use clap::Args;
 use serde_json::json;
@@ -38,9 +38,6 @@ pub(super) struct Diagnose {
     #[arg(long, value_name = "FILE")]
     simpler: Option<PathBuf>,
 }
-
-/// What a recording consists of.
-const FILES: [&str; 4] = ["recording.toml", "sets.csv", "frames.npy", "mask.npy"];
 
 impl Diagnose {
     pub(super) fn run(self) -> Result<ExitCode> {

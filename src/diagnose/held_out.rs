@@ -29,6 +29,13 @@ pub struct HeldOut {
     pub sets: usize,
 }
 
+impl HeldOut {
+    /// Schemes apart, where there are several and anything was held out.
+    pub fn of_schemes(&self) -> &[(usize, Agreement, Agreement)] {
+        if self.by_frames.len() > 1 && self.sets > 0 { &self.by_frames } else { &[] }
+    }
+}
+
 /// Neighbouring sets that are held out together.
 const GROUP: usize = 4;
 const FOLDS: usize = 2;
@@ -317,14 +324,7 @@ mod tests {
         };
         let whole = left_out(&everywhere) - left_out(&clean);
         let baseline = unfitted(&upper, noise);
-        let piece = Piece {
-            effect,
-            values: effect.off(),
-            free: vec![0],
-            takes: vec![0],
-            finite: false,
-            included: Vec::new(),
-        };
+        let piece = Piece::off(effect.name, &[0], &[0]);
         let after = fit(&upper, Some(&baseline), vec![piece], noise, &|_| true);
         let both =
             chi2(held_out(&upper, alone(&baseline, noise), alone(&after, noise)).after) - left_out(&clean);

@@ -10,7 +10,7 @@ use super::pass::DISBELIEF;
 use super::pieces::tolerance;
 use super::random::{EXCESS_NOISE, JITTERS, RandomEffect};
 use super::set_errors::Jitter;
-use crate::physics::{Active, Effect, Parameter, effects};
+use crate::physics::{Active, Effect, effects};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A random effect is more than the camera includes where it is stronger by so many standard deviations: what was found in one campaign, and is included since, is
@@ -54,23 +54,17 @@ impl Unpredicted {
     }
 }
 
-/// How much of each number of `effect` the camera of `data` includes in all of the recordings `takes`; nothing where that is not told by strengths alone: a shape of
-/// its own that is fitted may be another one.
+/// How much of each number of `effect` the camera of `data` includes in every one of the recordings `takes`, as far as strengths tell it.
 pub fn included_of(data: &Data, effect: &Effect, takes: &[usize]) -> Vec<f64> {
-    let of_take = |&take: &usize| {
-        let here = data.takes[take].included.iter().filter(|active| std::ptr::eq(active.effect, effect));
-        here.fold(vec![0.0; effect.parameters.len()], |sum, active| {
-            let of = sum.iter().zip(&active.values).zip(effect.parameters);
-            let strength = |value: &f64, of: &Parameter| if of.is_shape() { 0.0 } else { value - of.off };
-            of.map(|((sum, value), parameter)| sum + strength(value, parameter)).collect()
-        })
-    };
     // What is less is certainly included.
-    let least = |one: Vec<f64>, other: Vec<f64>| -> Vec<f64> {
-        let less = |(a, b): (f64, f64)| if a * b > 0.0 { a.signum() * a.abs().min(b.abs()) } else { 0.0 };
-        one.into_iter().zip(other).map(less).collect()
+    let least = |one: f64, other: f64| {
+        if one * other > 0.0 { one.signum() * one.abs().min(other.abs()) } else { 0.0 }
     };
-    takes.iter().filter(|_| effect.is_told_by_strengths()).map(of_take).reduce(least).unwrap_or_default()
+    let of = |number: usize| {
+        let of_take = |&take: &usize| Active::in_all(&data.takes[take].included, effect, number);
+        takes.iter().map(of_take).reduce(least).unwrap_or(0.0)
+    };
+    (0..effect.parameters.len()).map(of).collect()
 }
 
 /// What the effects that a camera includes explain, beside each other: their forms may leave a part of it, and that is no mismatch, as it is none where such an effect is

@@ -3,10 +3,11 @@
 use super::columns::Tangents;
 use super::data::Data;
 use super::fit::Fit;
+use super::in_order::joined;
 use super::noise::Noise;
 use super::places::APART_M;
+use super::settle::median;
 use super::whiten::whiten;
-use rayon::prelude::*;
 
 /// What a pixel's residual changes by from a set to the same one again has so many times the variance of the usual pixel's.
 const NOISIER: f64 = 4.0;
@@ -16,6 +17,8 @@ const USUAL: f64 = 1.5;
 const FEW: f64 = 0.02;
 /// Of so many changes at least.
 const LEAST: usize = 40;
+/// So many pairs of sets are looked at one after the other.
+const TOGETHER: usize = 8;
 
 /// The pixels whose noise is far above that of others; none where they are many, or where no set was taken again. `fit` says what their signal is.
 ///
@@ -35,36 +38,32 @@ pub fn noisy_pixels(data: &Data, fit: &Fit, noise: Noise) -> Vec<usize> {
             && (one.1.place_m - other.1.place_m).abs() < APART_M
     };
     let again: Vec<&[(usize, usize)]> = sets.windows(2).filter(is_again).collect();
-    let changes = |pair: &&[(usize, usize)]| {
+    let changes = |pairs: &[&[(usize, usize)]]| {
         let mut sums = vec![(0.0, 0_usize); pixels];
-        let frames = data.takes[pair[0].0].frames;
-        for frame in 0..frames {
-            let [one, other] = [0, 1].map(|n| {
-                let (take, set) = pair[n];
-                let index = set * frames + frame;
-                whiten(data, take, index, &tangents.base(take, index), noise)
-            });
-            let residuals = one.1.iter().zip(&other.1);
-            let counts = one.0.iter().zip(&other.0).map(|(one, other)| *one > 0.0 && *other > 0.0);
-            for ((sum, (one, other)), counts) in sums.iter_mut().zip(residuals).zip(counts) {
-                if counts {
+        for pair in pairs {
+            let frames = data.takes[pair[0].0].frames;
+            for frame in 0..frames {
+                let [one, other] = [0, 1].map(|n| {
+                    let (take, set) = pair[n];
+                    let index = set * frames + frame;
+                    whiten(data, take, index, &tangents.base(take, index), noise)
+                });
+                let residuals = one.1.iter().zip(&other.1);
+                let counts = one.0.iter().zip(&other.0).map(|(one, other)| *one > 0.0 && *other > 0.0);
+                for ((sum, (one, other)), _) in sums.iter_mut().zip(residuals).zip(counts).filter(|of| of.1) {
                     *sum = (sum.0 + 0.5 * (one - other) * (one - other), sum.1 + 1);
                 }
             }
         }
         sums
     };
-    let add = |mut all: Vec<(f64, usize)>, more: Vec<(f64, usize)>| {
+    let join = |mut all: Vec<(f64, usize)>, more: Vec<(f64, usize)>| {
         all.iter_mut().zip(more).for_each(|(all, more)| *all = (all.0 + more.0, all.1 + more.1));
         all
     };
-    let none = || vec![(0.0, 0); pixels];
-    // Sums of counts and of a few squares: their order shows in the last bits, which decide nothing.
-    let sums = again.par_iter().map(changes).reduce(none, add);
+    let Some(sums) = joined(&again, TOGETHER, changes, join) else { return Vec::new() };
     let variance = |&(square, count): &(f64, usize)| (count >= LEAST).then(|| square / count as f64);
-    let mut all: Vec<f64> = sums.iter().filter_map(variance).collect();
-    all.sort_by(f64::total_cmp);
-    let Some(&usual) = all.get(all.len() / 2) else { return Vec::new() };
+    let usual = median(&mut sums.iter().filter_map(variance).collect::<Vec<f64>>());
     let is_noisy = |pixel: &usize| variance(&sums[*pixel]).is_some_and(|own| own > NOISIER * usual);
     let noisy: Vec<usize> = (0..pixels).filter(is_noisy).collect();
     let most = (FEW * pixels as f64).max(1.0);

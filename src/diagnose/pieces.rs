@@ -20,11 +20,19 @@ pub struct Piece {
     pub takes: Vec<usize>,
     /// Whether its tangent is taken from off to `values`, because it starts with a corner.
     pub finite: bool,
-    /// How much of each number the camera's simulation includes where the effect acts, and what may be too much. Empty where that is nothing.
+    /// How much of each number the camera's simulation includes where the effect acts, and what may be too much; empty of what begins with a corner.
     pub included: Vec<f64>,
 }
 
 impl Piece {
+    /// The effect called `name` of the registry, off, of which the numbers `free` are fitted in the recordings `takes`.
+    #[cfg(test)]
+    pub fn off(name: &str, free: &[usize], takes: &[usize]) -> Self {
+        let effect = crate::physics::effects::named(name).expect("an effect of the registry");
+        let (free, takes) = (free.to_vec(), takes.to_vec());
+        Self { effect, values: effect.off(), free, takes, finite: false, included: Vec::new() }
+    }
+
     /// How many of its shapes are fitted.
     pub fn shapes(&self) -> usize {
         self.free.iter().filter(|&&number| self.effect.parameters[number].is_shape()).count()

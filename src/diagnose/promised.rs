@@ -63,18 +63,9 @@ impl Promised {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::effects;
 
     fn piece(name: &str, free: &[usize]) -> Piece {
-        let effect = effects::named(name).unwrap();
-        Piece {
-            effect,
-            values: effect.off(),
-            free: free.to_vec(),
-            takes: vec![0, 1],
-            finite: false,
-            included: Vec::new(),
-        }
+        Piece::off(name, free, &[0, 1])
     }
 
     #[test]

@@ -181,15 +181,7 @@ mod tests {
         let recordings = taken(size, 2, std::slice::from_ref(&scatter), &["four-rail"]).unwrap();
         let data = Data::of(&recordings, Vec::new()).unwrap();
         let noise = stated_noise(&data);
-        let values = vec![0.3; scatter.effect.parameters.len()];
-        let piece = Piece {
-            effect: scatter.effect,
-            values,
-            free: vec![0],
-            takes: vec![0],
-            finite: false,
-            included: Vec::new(),
-        };
+        let piece = Piece { values: scatter.values, ..Piece::off(scatter.effect.name, &[0], &[0]) };
         let pieces = [piece];
         let judges = Judges { data: &data, pieces: &pieces, noise, counts: &|_| true };
         let good = settled(&data, &unfitted(&data, noise).pixels, None, 8, &pieces, noise, &|_| true);

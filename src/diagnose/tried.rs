@@ -66,19 +66,6 @@ impl Tried {
 mod tests {
     use super::*;
     use crate::diagnose::pieces::Variant;
-    use crate::physics::effects;
-
-    fn piece(name: &str, free: &[usize], takes: &[usize]) -> Piece {
-        let effect = effects::named(name).unwrap();
-        Piece {
-            effect,
-            values: effect.off(),
-            free: free.to_vec(),
-            takes: takes.to_vec(),
-            finite: false,
-            included: Vec::new(),
-        }
-    }
 
     fn candidate(ways: &[&[Piece]]) -> Candidate {
         let variant = |pieces: &&[Piece]| Variant { pieces: pieces.to_vec(), rarity: 1.0 };
@@ -89,13 +76,13 @@ mod tests {
     #[test]
     fn ways_share_the_columns_of_what_they_have_in_common() {
         let [all, few, other] = [
-            piece("frame_gain", &[0, 1, 2], &[0]),
-            piece("frame_gain", &[1, 3], &[0]),
-            piece("frame_gain", &[0, 1], &[1]),
+            Piece::off("frame_gain", &[0, 1, 2], &[0]),
+            Piece::off("frame_gain", &[1, 3], &[0]),
+            Piece::off("frame_gain", &[0, 1], &[1]),
         ];
         let gains = candidate(&[&[all.clone(), other.clone()], &[few], &[all]]);
-        let drift = candidate(&[&[piece("ambient_drift", &[0], &[0, 1])]]);
-        let scale = piece("phase_step_scale", &[0], &[0, 1]);
+        let drift = candidate(&[&[Piece::off("ambient_drift", &[0], &[0, 1])]]);
+        let scale = Piece::off("phase_step_scale", &[0], &[0, 1]);
         let fitted = candidate(&[std::slice::from_ref(&scale)]);
         let tried = Tried::beside(std::slice::from_ref(&scale), 1, &[fitted, gains, drift]);
         let columns: Vec<&[usize]> = tried.blocks.iter().map(|block| &block.columns[..]).collect();

@@ -183,9 +183,9 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     }
     let mut answer = answer(data, &judgement, &held_out);
     let overstated = overstated(data, &judgement, held_out.after.chi2_per_dof);
-    answer.provenance["sets_left_out"] = json!(left_out.sets());
-    answer.provenance["sets_left_out_of"] = left_out.json();
-    answer.provenance["pixels_left_out"] = json!(left_out.pixels());
+    answer.provenance["sets_left_out"] = json!(left_out.sets.values().map(Vec::len).sum::<usize>());
+    answer.provenance["sets_left_out_of"] = json!(left_out.sets);
+    answer.provenance["pixels_left_out"] = json!(left_out.pixels);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     answer.provenance["overstated"] = json!(overstated);
     Diagnosis { judgement, held_out, overstated, left_out, answer, geometry: data.geometry() }

@@ -202,7 +202,7 @@ impl Effect {
     }
 
     /// Whether its strengths, and which of a few kinds it is, say all of it.
-    pub fn is_told_by_strengths(&self) -> bool {
+    fn is_told_by_strengths(&self) -> bool {
         self.parameters.iter().all(|parameter| parameter.is_choice || !parameter.is_shape())
     }
 
@@ -257,6 +257,15 @@ impl Effect {
 }
 
 impl Active {
+    /// How much of the parameter `number` of `effect` all of the `active` ones are together; 0 where strengths alone do not tell that: of a path with a length of its
+    /// own, of a shape, of what is random.
+    pub fn in_all<'a>(active: impl IntoIterator<Item = &'a Self>, effect: &Effect, number: usize) -> f64 {
+        let parameter = &effect.parameters[number];
+        let is_summed = effect.is_told_by_strengths() && effect.is_predicted() && !parameter.is_shape();
+        let of_effect = active.into_iter().filter(|active| is_summed && std::ptr::eq(active.effect, effect));
+        of_effect.map(|active| active.values[number] - parameter.off).sum()
+    }
+
     /// Whether every strength is off, so that it does nothing.
     pub fn is_off(&self) -> bool {
         let mut values = self.effect.parameters.iter().zip(&self.values);

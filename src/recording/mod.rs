@@ -31,6 +31,8 @@ use std::path::{Path, PathBuf};
 
 /// The files without which there is no recording.
 const REQUIRED: [&str; 3] = ["recording.toml", "frames.npy", "sets.csv"];
+/// What a recording's folder may have: those, and the mask.
+pub const FILES: [&str; 4] = [REQUIRED[0], REQUIRED[1], REQUIRED[2], "mask.npy"];
 /// The same in words, for refusals.
 const CONTENTS: &str = "a recording: a folder with recording.toml, frames.npy and sets.csv";
 

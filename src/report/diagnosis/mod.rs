@@ -1,6 +1,7 @@
 //! A diagnosis as a person reads it.
 
 mod curves;
+mod left_out;
 mod page;
 mod paragraph;
 mod text;

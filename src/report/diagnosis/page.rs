@@ -1,6 +1,7 @@
 //! A diagnosis as a page that needs nothing else: the verdict, maps and curves before and after, the evidence.
 
 use super::curves::curve;
+use super::left_out::sentences;
 use super::paragraph::paragraph;
 use super::text::probability;
 use crate::diagnose::{Agreement, Alone, Diagnosis, Location};
@@ -56,7 +57,6 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
         true => format!("{value:.digits$}"),
         false => "not known".to_owned(),
     };
-    let several = diagnosis.held_out.by_frames.len() > 1;
     let of_scheme = |(frames, before, after): &(usize, Agreement, Agreement)| {
         [
             ("chi squared a sample", before.chi2_per_dof, after.chi2_per_dof, 5),
@@ -125,7 +125,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
             ],
         ]
         .into_iter()
-        .chain(diagnosis.held_out.by_frames.iter().filter(|_| several).flat_map(of_scheme))
+        .chain(diagnosis.held_out.of_schemes().iter().flat_map(of_scheme))
         .collect(),
         evidence: evidence(diagnosis),
         next: answer
@@ -156,7 +156,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
         maps: vec![("before", map(before)), ("after", map(after))],
         scale: format!("{limit:.2}"),
         curves: before.curves.iter().zip(&after.curves).map(|(before, after)| curve(before, after)).collect(),
-        left_out: diagnosis.left_out.sentences(),
+        left_out: sentences(&diagnosis.left_out),
         remainder: match answer.remainder.coordinate {
             Some(coordinate) => format!(
                 "{:.2} % of the mismatch is left, most of it over {coordinate}.",

@@ -101,6 +101,6 @@ fn ruled_out(answer: &Answer) -> String {
 }
 
 /// `one number`, `2 numbers`.
-fn counted(count: usize, noun: &str) -> String {
+pub fn counted(count: usize, noun: &str) -> String {
     if count == 1 { format!("one {noun}") } else { format!("{count} {noun}s") }
 }

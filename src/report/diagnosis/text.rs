@@ -1,5 +1,6 @@
 //! A diagnosis in a screenful.
 
+use super::left_out::sentences;
 use super::paragraph::paragraph;
 use crate::diagnose::{Agreement, Diagnosis, HeldOut, HeldOutRow};
 use std::fmt::Write;
@@ -66,7 +67,7 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
             "The camera states more than there is of {words}. What is weaker than it states is not seen."
         );
     }
-    for sentence in diagnosis.left_out.sentences() {
+    for sentence in sentences(&diagnosis.left_out) {
         let _ = writeln!(text, "Left out: {sentence}");
     }
     text += &of_held_out(&answer.held_out);
@@ -108,39 +109,33 @@ fn of_held_out(held: &HeldOutRow) -> String {
         held.rms_dn_after,
         held.frame_mean_rms_dn_before,
         held.frame_mean_rms_dn_after,
-        distance(held)
+        distance("distance of a set", [held.distance_rms_m_before, held.distance_rms_m_after])
     )
 }
 
 /// The same of each scheme, where there are several.
 fn of_schemes(held: &HeldOut) -> String {
-    let several = held.by_frames.len() > 1 && held.sets > 0;
     let of = |(frames, before, after): &(usize, Agreement, Agreement)| {
-        let distance = match after.distance_rms_m.is_finite() {
-            true => format!(
-                ", distance {:.2} -> {:.2} mm RMS",
-                1e3 * before.distance_rms_m,
-                1e3 * after.distance_rms_m
-            ),
-            false => String::new(),
-        };
         format!(
-            "  {frames} frames a set: chi squared {:.4} -> {:.4}, raw frames {:.3} -> {:.3} DN RMS{distance}\n",
-            before.chi2_per_dof, after.chi2_per_dof, before.rms_dn, after.rms_dn
+            "  {frames} frames a set: chi squared {:.4} -> {:.4}, raw frames {:.3} -> {:.3} DN RMS{}\n",
+            before.chi2_per_dof,
+            after.chi2_per_dof,
+            before.rms_dn,
+            after.rms_dn,
+            distance("distance", [before.distance_rms_m, after.distance_rms_m])
         )
     };
-    held.by_frames.iter().filter(|_| several).map(of).collect()
+    held.of_schemes().iter().map(of).collect()
 }
 
 /// A recording that separates by less does not.
 const ENOUGH_RHO: f64 = 3.0;
 
-/// The error of a set's distance, where there is one.
-fn distance(held: &HeldOutRow) -> String {
-    if !held.distance_rms_m_before.is_finite() {
-        return String::new();
+/// The error of a set's distance before and after, m, where there is one.
+fn distance(what: &str, rms_m: [f64; 2]) -> String {
+    let [before_mm, after_mm] = rms_m.map(|metres| 1e3 * metres);
+    match before_mm.is_finite() {
+        true => format!(", {what} {before_mm:.2} -> {after_mm:.2} mm RMS"),
+        false => String::new(),
     }
-    let [before_mm, after_mm] =
-        [held.distance_rms_m_before, held.distance_rms_m_after].map(|metres| 1e3 * metres);
-    format!(", distance of a set {before_mm:.2} -> {after_mm:.2} mm RMS")
 }

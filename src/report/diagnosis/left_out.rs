@@ -1,0 +1,33 @@
+//! What was left out before anything was looked for, in words.
+
+use super::paragraph::counted;
+use crate::diagnose::LeftOut;
+
+/// So many numbers of sets, or pixels, are told.
+const MOST: usize = 8;
+
+/// What is `left_out`, a sentence each.
+pub fn sentences(left_out: &LeftOut) -> Vec<String> {
+    let LeftOut { sets, pixels } = left_out;
+    let mut sentences = Vec::new();
+    if !sets.is_empty() {
+        let of = |(name, sets): (&String, &Vec<usize>)| format!("{name} {}", told(sets, ToString::to_string));
+        let count = counted(sets.values().map(Vec::len).sum(), "set");
+        let of: Vec<String> = sets.iter().map(of).collect();
+        sentences.push(format!("{count} unlike the neighbours: {}", of.join("; ")));
+    }
+    if !pixels.is_empty() {
+        let of = told(pixels, |(row, column)| format!("row {row} column {column}"));
+        sentences.push(format!("{} far noisier than the others: {of}", counted(pixels.len(), "pixel")));
+    }
+    sentences
+}
+
+/// The first of `all`, and how many more there are.
+fn told<T>(all: &[T], words: impl Fn(&T) -> String) -> String {
+    let first: Vec<String> = all.iter().take(MOST).map(words).collect();
+    match all.len().saturating_sub(MOST) {
+        0 => first.join(", "),
+        more => format!("{} and {more} more", first.join(", ")),
+    }
+}
