@@ -280,6 +280,7 @@ fn what_is_unexplained_is_named_when_the_user_gives_its_formula() {
         ("sin(", "sin((", "formula"),
         ("amplitude_dn * sin", "amplitude_dn + sin", "0 where every strength is 0"),
         ("cos(PI * set)", "0", "typical values make something of"),
+        ("name = \"amplitude_dn\"", "name = \"row\"", "row is a parameter, and a coordinate"),
         ("formula = \"amplitude_dn * ", "formula = \"", "does not use the parameter amplitude_dn"),
     ] {
         std::fs::write(&library, LIBRARY.replacen(from, to, 1)).unwrap();

@@ -73,6 +73,40 @@ fn a_power_is_the_responses_in_any_number_of_steps() {
     assert!(before > 1.2 && after < 1.1, "{before} {after}");
 }
 
+/// One set is not unlike another one, and of a still scene nothing is at several places; what nobody has described is assumed, and that is said.
+#[test]
+fn of_a_single_set_no_other_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let stack = stack(folder.path(), 12, 1, |light| 255.0 * (light / 255.0).powf(0.6));
+    let [json, camera] = ["a.json", "camera.toml"].map(|name| folder.path().join(name));
+    let (good, text) = vuris(&[
+        "diagnose",
+        stack.to_str().unwrap(),
+        "--json",
+        json.to_str().unwrap(),
+        "--write-camera",
+        camera.to_str().unwrap(),
+    ]);
+    assert!(good, "{text}");
+    let verdict: Value = serde_json::from_slice(&std::fs::read(&json).unwrap()).unwrap();
+    let located: Vec<&str> = verdict["located"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row["coordinate"].as_str().unwrap())
+        .collect();
+    assert!(located.contains(&"code") && !located.contains(&"set"), "{located:?}");
+    assert!(!located.contains(&"position_m"), "{located:?}");
+    for words in [
+        "(probability of a mismatch above 0.99)",
+        "intensity_nonlinearity (probability ",
+        "On one set that the fit has not seen",
+        "no camera.toml describes the camera: 8 bits",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+}
+
 /// Three frames are three numbers: any three agree with any simulation.
 #[test]
 fn three_steps_test_nothing() {

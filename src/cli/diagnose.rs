@@ -61,7 +61,18 @@ impl Diagnose {
             let text = serde_json::to_string_pretty(&diagnosis.answer)
                 .map_err(|error| Problem::at("the verdict", error))?;
             if let Some(file) = &self.write_camera {
-                write_file(file, &camera_with(&data, &diagnosis.judgement).to_toml())?;
+                let camera = camera_with(&data, &diagnosis.judgement);
+                write_file(file, &camera.to_toml())?;
+                if data.assumed.camera {
+                    remark(format_args!(
+                        "{}: no camera.toml describes the camera: {} bits, a pedestal of {} DN, a sinusoidal correlation and parallel rays \
+                         (a focal length of {:e} pixels) are assumed; gain and read noise are those that were measured, where noise tells them",
+                        file.display(),
+                        camera.adc_bits,
+                        camera.pedestal_dn,
+                        camera.focal_length_px
+                    ));
+                }
             }
             if let Some(file) = &self.simpler {
                 let simpler = &diagnosis.judgement.found.simpler;

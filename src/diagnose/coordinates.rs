@@ -36,7 +36,7 @@ impl View<'_> {
 pub struct Coordinate {
     /// Its name in a verdict.
     pub name: &'static str,
-    /// How many columns it has.
+    /// How many columns it has; none where it has one value only.
     pub columns: fn(&Ranges) -> usize,
     /// The columns that act in a frame.
     pub fill: fn(&View) -> Acting,
@@ -147,7 +147,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     Coordinate { name: "phase", columns: |_| OF_RANGE + 3 * OF_OFFSET, fill: phase, shape: phase_shape },
     Coordinate {
         name: "position_m",
-        columns: |_| 3 * POSITIONS,
+        columns: |ranges| if ranges.has_places { 3 * POSITIONS } else { 0 },
         fill: |view| {
             let position_m = view.moment.commanded_m();
             by_frame(view, POSITIONS, &hats(within(position_m, view.ranges.position_m), POSITIONS))
@@ -234,7 +234,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "set",
-        columns: |_| 3 * 2,
+        columns: |ranges| if ranges.has_sets { 3 * 2 } else { 0 },
         fill: |view| {
             let odd = if view.moment.set % 2 == 0 { 1.0 } else { -1.0 };
             by_frame(view, 2, &[(0, odd), (1, odd * centred(view.moment))])

@@ -3,7 +3,7 @@
 use super::clusters::{Cluster, Clusters};
 use super::codes::Codes;
 use super::columns::Tangents;
-use super::coordinates::{COORDINATES, View};
+use super::coordinates::{COORDINATES, Coordinate, View};
 use super::data::Data;
 use super::evidence::{Block, Evidence, Greatest};
 use super::fit::Fit;
@@ -63,11 +63,13 @@ impl Located {
 pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     let ranges = Ranges::of(data, &base.pixels);
     let (tangents, _) = Tangents::new(data, &base.pixels, &base.pieces, &[]);
-    let sizes: Vec<usize> = COORDINATES.iter().map(|coordinate| (coordinate.columns)(&ranges)).collect();
+    let columns = |coordinate: &Coordinate| (coordinate.columns)(&ranges);
+    let coordinates: Vec<&Coordinate> = COORDINATES.iter().filter(|c| columns(c) > 0).collect();
+    let sizes: Vec<usize> = coordinates.iter().map(|coordinate| columns(coordinate)).collect();
     let fill = |take: usize, index: usize, frame: &super::columns::Frame| {
         let moment = &data.takes[take].moments[index];
         let view = View { moment, take, frame, pixels: &base.pixels, ranges: &ranges };
-        COORDINATES.iter().map(|coordinate| (coordinate.fill)(&view)).collect()
+        coordinates.iter().map(|coordinate| (coordinate.fill)(&view)).collect()
     };
     let visit = |(clusters, profiles, codes): Seen, whitened: &Whitened| {
         (
@@ -80,7 +82,7 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     let (gram, (clusters, profiles, codes)) =
         Gram::with_blocks(data, &tangents, noise, &|_| true, &sizes, &fill, &visit, &merge);
     let projected = gram.project_all(base.jitter_m2);
-    let mut columns: Vec<Located> = COORDINATES
+    let mut columns: Vec<Located> = coordinates
         .iter()
         .zip(projected)
         .zip(&sizes)
@@ -95,7 +97,9 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     let every = data.grid.every as f64;
     columns.extend(clusters.waves().into_iter().map(|(level, wave)| {
         let name = level.name();
-        let shape = format!("a wave of {:.1} {name}s, {:+.3} Hz", wave.lines * every, wave.hz);
+        // Rounded to nothing it has no sign.
+        let hz = if wave.hz.abs() < 5e-4 { 0.0 } else { wave.hz };
+        let shape = format!("a wave of {:.1} {name}s, {hz:+.3} Hz", wave.lines * every);
         Located::wave(name, shape, wave.found)
     }));
     columns.extend(clusters.swings().into_iter().map(|swing| match swing.alternates {

@@ -78,6 +78,8 @@ mod tests {
             position_m: (0.0, 1.0),
             speed_m_s: 1.0,
             duration_s: vec![1.0; frames.len()],
+            has_places: true,
+            has_sets: true,
             frame_numbers: frames.iter().map(|(frames, first)| first + frames).max().unwrap_or(0),
             frames,
             ln_amplitude: (0.0, 1.0),

@@ -232,6 +232,15 @@ pub fn coordinate(cluster: &Cluster) -> &'static str {
     }
 }
 
+/// `size` with three significant digits, without an exponent where it needs none.
+fn plain(size: f64) -> String {
+    if !(1e-4..1e4).contains(&size) {
+        return format!("{size:.2e}");
+    }
+    let digits = (2.0 - size.log10().floor()).max(0.0) as usize;
+    format!("{size:.digits$}")
+}
+
 /// What the errors are, in words.
 pub fn words(cluster: &Cluster) -> String {
     let common = cluster.level.name();
@@ -243,12 +252,12 @@ pub fn words(cluster: &Cluster) -> String {
         ("position", _) => " s of movement",
         _ => " m/s",
     };
-    format!("random {} of {:.3e}{unit}, common to a {common}", MODES[cluster.mode], cluster.sigma)
+    format!("random {} of {}{unit}, common to a {common}", MODES[cluster.mode], plain(cluster.sigma))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Location, OF_THE_FASTEST, deflated, is_beyond_forms, is_most, of_name, ordered};
+    use super::{Location, OF_THE_FASTEST, deflated, is_beyond_forms, is_most, of_name, ordered, plain};
     use crate::diagnose::jitters::Jitters;
     use crate::diagnose::location::Located;
 
@@ -271,6 +280,12 @@ mod tests {
         };
         assert_eq!((of(OF_THE_FASTEST), of("row")), (0.0, deflated(2.8, 115.0, 300.0)));
         assert!(of("row") > 15.0, "{}", of("row"));
+    }
+
+    #[test]
+    fn sizes_are_plain_numbers() {
+        let words = [3.7301, 0.037_301, 812.3, 3.73e-4, 3.73e-7].map(plain);
+        assert_eq!(words, ["3.73", "0.0373", "812", "0.000373", "3.73e-7"]);
     }
 
     #[test]

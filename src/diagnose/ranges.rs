@@ -13,6 +13,10 @@ pub struct Ranges {
     pub is_still: bool,
     /// Position of the target plane, m.
     pub position_m: (f64, f64),
+    /// Whether it is at several positions.
+    pub has_places: bool,
+    /// Whether a recording has several sets.
+    pub has_sets: bool,
     /// Greatest speed, m/s.
     pub speed_m_s: f64,
     /// Duration of each recording, s.
@@ -31,25 +35,27 @@ impl Ranges {
     /// Of the frames of `data`, seen by `pixels`.
     pub fn of(data: &Data, pixels: &Pixels) -> Self {
         let moments = || data.takes.iter().flat_map(|take| &take.moments);
-        let ends = |values: &mut dyn Iterator<Item = f64>| {
-            let (low, high) =
-                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-            if low < high { (low, high) } else { (low - 0.5, low + 0.5) }
+        let least_greatest = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
         };
-        let position_m = ends(&mut moments().map(Moment::commanded_m));
+        let spread = |(low, high)| if low < high { (low, high) } else { (low - 0.5, low + 0.5) };
+        let places_m = least_greatest(&mut moments().map(Moment::commanded_m));
+        let position_m = spread(places_m);
         let light = |pixel: usize| {
             let range_m = pixels.obliquity[pixel];
             (pixels.amplitude_1m_dn[pixel].max(1e-3) / (range_m * range_m)).ln()
         };
         let is_still = data.assumed.still_scene;
         let targets = (0..pixels.count()).filter(|&pixel| is_still || pixels.target[pixel]);
-        let at_1m = ends(&mut targets.map(light));
+        let at_1m = spread(least_greatest(&mut targets.map(light)));
         let schemes = data.schemes();
         let first = |frames: usize| schemes.iter().take_while(|&&other| other < frames).sum();
         Self {
             geometry: data.geometry(),
             is_still,
             position_m,
+            has_places: places_m.0 < places_m.1,
+            has_sets: moments().any(|moment| moment.set > 0),
             speed_m_s: moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max),
             duration_s: data.takes.iter().map(|t| t.moments.last().map_or(0.0, |m| m.time_s)).collect(),
             frames: data.takes.iter().map(|take| (take.frames, first(take.frames))).collect(),

@@ -232,8 +232,7 @@ fn word(verdict: Verdict) -> &'static str {
 
 fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     let Judgement { verdict, found, named, .. } = judgement;
-    let best_alone = found.alone.iter().map(|alone| alone.ln_bayes).fold(f64::NEG_INFINITY, f64::max);
-    let nats = judgement.places.iter().map(|place| place.ln_bayes).fold(best_alone, f64::max);
+    let nats = judgement.places.iter().map(|place| place.ln_bayes).fold(of_any(&found.alone), f64::max);
     let nats = named.iter().map(|named| named.ln_bayes).fold(nats, f64::max);
     let is_clean = *verdict == Verdict::Clean;
     // What tangents at the baseline did not show may show where other effects are.
@@ -288,6 +287,11 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
             "encoder_sigma_m": judgement.fit.jitter_m2.sqrt(),
         }),
     }
+}
+
+/// Evidence that one of these effects is there, whichever, nats: effects of which none stands out may say something together.
+fn of_any(alone: &[Alone]) -> f64 {
+    alone.iter().map(|alone| alone.ln_bayes.exp()).sum::<f64>().ln()
 }
 
 /// What these recordings cannot show, and why.

@@ -81,6 +81,14 @@ impl Formula {
     /// # Errors
     /// A text that is no formula, or a variable that is neither.
     pub fn new(target: Target, text: &str, parameters: &[&str]) -> Result<Self> {
+        if let Some((name, _)) = ALL.iter().find(|(name, _)| parameters.contains(name)) {
+            return Err(Problem::at(
+                "formula",
+                format_args!("{text}: {name} is a parameter, and a coordinate"),
+            )
+            .expected("parameters that are not called as a coordinate")
+            .remedy("give the parameter another name"));
+        }
         let expression: FlatEx<f64> = exmex::parse(text).map_err(|error| {
             Problem::at("formula", format_args!("{text}: {error}"))
                 .expected("a formula such as a * sin(6.28 * row / 5)")

@@ -2,7 +2,7 @@
 
 use super::curves::curve;
 use super::left_out::sentences;
-use super::paragraph::paragraph;
+use super::paragraph::{chance, paragraph};
 use super::text::probability;
 use crate::diagnose::{Agreement, Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
@@ -18,6 +18,7 @@ type Row = Vec<String>;
 struct Page<'a> {
     title: String,
     verdict: String,
+    probability: String,
     paragraph: String,
     effects: Vec<Section>,
     located: Vec<Row>,
@@ -36,6 +37,7 @@ struct Page<'a> {
 
 struct Section {
     name: &'static str,
+    probability: String,
     sentence: String,
     also: String,
     parameters: Vec<Row>,
@@ -70,12 +72,14 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
     let page = Page {
         title: campaign.display().to_string(),
         verdict: answer.verdict.replace('_', " "),
+        probability: chance(answer.probability_of_mismatch),
         paragraph: paragraph(answer),
         effects: answer
             .effects
             .iter()
             .map(|effect| Section {
                 name: effect.name,
+                probability: chance(effect.probability),
                 sentence: effect.sentence.clone(),
                 also: effect.also_possible.join(", "),
                 parameters: effect

@@ -100,6 +100,15 @@ fn ruled_out(answer: &Answer) -> String {
     }
 }
 
+/// A probability of something that may be so; none is said to be certain, or impossible.
+pub fn chance(probability: f64) -> String {
+    match probability {
+        ..0.01 => "below 0.01".to_owned(),
+        0.99.. => "above 0.99".to_owned(),
+        _ => format!("{probability:.2}"),
+    }
+}
+
 /// `one number`, `2 numbers`.
 pub fn counted(count: usize, noun: &str) -> String {
     if count == 1 { format!("one {noun}") } else { format!("{count} {noun}s") }

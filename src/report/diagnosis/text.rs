@@ -1,7 +1,7 @@
 //! A diagnosis in a screenful.
 
 use super::left_out::sentences;
-use super::paragraph::paragraph;
+use super::paragraph::{chance, counted, paragraph};
 use crate::diagnose::{Agreement, Diagnosis, HeldOut, HeldOutRow};
 use std::fmt::Write;
 use std::path::Path;
@@ -19,7 +19,12 @@ pub fn probability(p: f64) -> String {
 /// What `diagnosis` says of `campaign`, in a screenful.
 pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
     let answer = &diagnosis.answer;
-    let mut text = format!("{}: {}\n\n", campaign.display(), answer.verdict.replace('_', " "));
+    let verdict = answer.verdict.replace('_', " ");
+    let mut text = format!(
+        "{}: {verdict} (probability of a mismatch {})\n\n",
+        campaign.display(),
+        chance(answer.probability_of_mismatch)
+    );
     // Writing to a string cannot fail.
     let _ = writeln!(text, "{}\n", paragraph(answer));
     if !answer.located.is_empty() {
@@ -37,7 +42,7 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         }
     }
     for effect in &answer.effects {
-        let _ = writeln!(text, "{}:", effect.name);
+        let _ = writeln!(text, "{} (probability {}):", effect.name, chance(effect.probability));
         for row in effect.parameters.iter().take(3 * MOST) {
             let unit = if row.unit == "1" { String::new() } else { format!(" {}", row.unit) };
             let bound = if row.at_bound { ", at its bound" } else { "" };
@@ -99,9 +104,9 @@ fn of_held_out(held: &HeldOutRow) -> String {
         return "Of these steps no frame is told by the others: nothing can be held out.\n".to_owned();
     }
     format!(
-        "On {} sets that the fit has not seen: chi squared a sample {:.4} -> {:.4} (z {:.1}), raw frames {:.3} -> {:.3} DN RMS,\n  \
+        "On {} that the fit has not seen: chi squared a sample {:.4} -> {:.4} (z {:.1}), raw frames {:.3} -> {:.3} DN RMS,\n  \
          their means {:.3} -> {:.3} DN RMS{}\n",
-        held.sets,
+        counted(held.sets, "set"),
         held.chi2_per_dof_before,
         held.chi2_per_dof_after,
         held.z,
