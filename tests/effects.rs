@@ -35,6 +35,7 @@ fn moment(frame: usize, position_m: f64, velocity_m_s: f64, offset_rad: f64, lit
         velocity_m_s,
         frequency_hz: 30e6,
         lit,
+        transmission: 1.0,
     }
 }
 
@@ -68,6 +69,20 @@ fn signal(effect: &'static Effect, values: &[f64], moment: Moment, deviate: f64)
 
 fn bits(signal: &[f64]) -> Vec<u64> {
     signal.iter().map(|value| value.to_bits()).collect()
+}
+
+#[test]
+fn a_filter_takes_its_share_of_all_light() {
+    let signal = |moment| chain_of(Vec::new()).expose(moment, Memory::default()).signal_dn.to_vec();
+    for moment in moments() {
+        let whole = signal(moment);
+        for transmission in [0.25, 0.0] {
+            let through = signal(Moment { transmission, ..moment });
+            for (through, whole) in through.iter().zip(&whole) {
+                assert!((through - transmission * whole).abs() <= 1e-12 * whole.abs(), "{through} {whole}");
+            }
+        }
+    }
 }
 
 /// Points of the parameters' box: corners, and points drawn within.

@@ -62,6 +62,7 @@ fn frame_of(pixels: Pixels, effects: Vec<Active>, frame: usize) -> Vec<f64> {
         velocity_m_s: 0.0,
         frequency_hz: 30e6,
         lit: true,
+        transmission: 1.0,
     };
     chain.expose(moment, Memory::default()).signal_dn.to_vec()
 }

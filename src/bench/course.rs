@@ -96,6 +96,7 @@ impl Course {
             velocity_m_s: row.velocity_m_s,
             frequency_hz: self.frequency_hz,
             lit: self.lit(),
+            transmission: 1.0,
         }
     }
 

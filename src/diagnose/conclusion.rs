@@ -1,5 +1,6 @@
 //! The verdict in a word, from what is named and what is left.
 
+use super::pass::DISBELIEF;
 use super::search::{Named, form_share};
 
 /// The verdict.
@@ -33,6 +34,8 @@ pub struct Case<'a> {
     pub remainder: f64,
     /// Whether what is left leads in the coordinate in which the mismatch led.
     pub stays: bool,
+    /// In the coordinate in which most is left, the share of what it showed of the mismatch that is left.
+    pub left_there: f64,
     /// Whether the camera is described.
     pub is_described: bool,
 }
@@ -43,7 +46,10 @@ impl Case<'_> {
         let (of_random, is_random) = self.at_random;
         let names = self.named.len() + of_random;
         let is_known = names > 0 && !self.is_misnamed;
-        let leaves_little = self.remainder < form_share(self.named) && !(self.stays && names > 2);
+        let may_leave = form_share(self.named);
+        // What is left by a form that is not believed to be better than that is so in every coordinate alike.
+        let is_of_form = self.remainder < may_leave / DISBELIEF || self.left_there < may_leave;
+        let leaves_little = self.remainder < may_leave && is_of_form && !(self.stays && names > 2);
         // A simulation of which nothing is described leaves out several things at once: what explains most of them is worth its name.
         let most_left = if names == 1 && self.is_described { 0.1 } else { 0.5 };
         if self.are_outvoted {
@@ -78,6 +84,7 @@ mod tests {
             is_far: false,
             remainder,
             stays: false,
+            left_there: 0.0,
             is_described: true,
         }
     }
@@ -133,6 +140,17 @@ mod tests {
         let three = ["phase_step_scale", "phase_drift", "lens_scatter"].map(|name| named(name, 1000.0));
         assert_eq!(case(&three, 0.02).verdict(), Verdict::Explained);
         assert_eq!(Case { stays: true, ..case(&three, 0.02) }.verdict(), Verdict::Unexplained);
+    }
+
+    #[test]
+    fn a_form_leaves_no_more_in_one_coordinate_than_in_all() {
+        // The form of a phase by amplitude may leave 24 %; half of what the columns showed is left by columns.
+        let one = [named("intensity_related_phase", 500.0)];
+        let verdict = |remainder, left_there| Case { left_there, ..case(&one, remainder) }.verdict();
+        assert_eq!(verdict(0.2, 0.2), Verdict::Explained);
+        assert_eq!(verdict(0.2, 0.5), Verdict::Unexplained);
+        // Of next to nothing that is left it does not matter where.
+        assert_eq!(verdict(0.07, 0.5), Verdict::Explained);
     }
 
     #[test]

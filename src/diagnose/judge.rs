@@ -104,7 +104,9 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
                 !place.is_random && deflated(random.inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS
             })
     };
-    let rest = left.iter().filter(is_left).map(Place::excess).fold(0.0, f64::max);
+    let most_left = left.iter().filter(is_left).max_by(|a, b| a.excess().total_cmp(&b.excess()));
+    let rest = most_left.map_or(0.0, |place| place.excess().max(0.0));
+    let left_there = most_left.map_or(0.0, |place| left_of(&places, place));
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
     // Far from the baseline columns promise more than there is, and of several effects none is sure. Noise that samples share raises all columns, and
     // so does a random effect.
@@ -124,6 +126,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         is_far,
         remainder,
         stays: !data.assumed.camera && stays(&places, &left),
+        left_there: if data.assumed.camera { 0.0 } else { left_there },
         is_described: !data.assumed.camera,
     };
     let mut verdict = case.verdict();
@@ -164,6 +167,13 @@ fn stays(places: &[Place], left: &[Place]) -> bool {
     let (Some(most), Some(left)) = (places.first(), left.first()) else { return false };
     let is_leading = |place: &&Place| place.ln_bayes >= LEADING * most.ln_bayes;
     places.iter().filter(is_leading).any(|place| place.coordinate == left.coordinate)
+}
+
+/// Of what the coordinate of the place `left` showed of the mismatch, of which these are the `places`, the share that is left.
+fn left_of(places: &[Place], left: &Place) -> f64 {
+    let is_there = |place: &&Place| place.coordinate == left.coordinate && place.is_random == left.is_random;
+    let showed = places.iter().filter(is_there).map(Place::excess).fold(0.0, f64::max);
+    left.excess() / showed.max(left.excess()).max(f64::MIN_POSITIVE)
 }
 
 /// The names of what was `found` that stand beside random errors which raise the variance of columns by `inflation`.

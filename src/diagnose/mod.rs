@@ -56,6 +56,7 @@ mod power_at_random;
 mod products;
 mod profiles;
 mod promised;
+mod proposals;
 mod random;
 mod ranges;
 mod search;
@@ -92,6 +93,7 @@ pub use judge::Judgement;
 pub use left_out::LeftOut;
 pub use location::{Located, Location};
 pub use mismatch::Place;
+pub use next::ENOUGH_RHO;
 pub use noise::Noise;
 pub use power::Detectable;
 pub use profiles::{Point, Profile};
@@ -99,7 +101,7 @@ pub use search::{Found, Named};
 pub use seen::Agreement;
 
 pub use simpler::Simpler;
-pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, RuledOut, diagnose};
+pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, NextRecording, RuledOut, diagnose};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise, and what it includes of noise and errors at random.
 pub fn stated_noise(data: &Data) -> Noise {

@@ -209,6 +209,7 @@ mod tests {
             velocity_m_s,
             frequency_hz: 30e6,
             lit,
+            transmission: 1.0,
         };
         [(0, 0.0, 0.0, true), (1, 2.0, 1.0, true), (3, -1.0, 4.4, true), (2, 0.0, 0.3, false)]
             .map(of)

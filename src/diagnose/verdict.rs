@@ -346,8 +346,9 @@ fn ruled_out(judgement: &Judgement) -> Vec<RuledOut> {
         .filter(|alone| !found.invisible.contains(&alone.name))
         .map(|&Alone { name, chi2, degrees, ln_bayes }| {
             let share = if *verdict == Verdict::Clean || ln_bayes < 0.0 { 0.0 } else { chi2 / all };
+            let plural = if degrees == 1 { "" } else { "s" };
             let by = match share > 0.0 {
-                false => format!("no trace: chi squared {chi2:.1} for {degrees} numbers"),
+                false => format!("no trace: chi squared {chi2:.1} for {degrees} number{plural}"),
                 true => format!("alone it takes {:.0} % of it, and leaves the rest", (100.0 * share).floor()),
             };
             RuledOut { name, by, share: rounded(share) }

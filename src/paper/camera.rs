@@ -163,6 +163,7 @@ impl Camera {
                 velocity_m_s: set.velocity_m_s,
                 frequency_hz: set.frequency_hz,
                 lit: true,
+                transmission: 1.0,
             };
             self.0.expose(moment, Memory::default()).signal_dn[0]
         };

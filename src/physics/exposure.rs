@@ -38,6 +38,8 @@ pub struct Moment {
     pub frequency_hz: f64,
     /// Whether the camera's own light is on.
     pub lit: bool,
+    /// Share of all light that comes through what is before the lens: 1 where nothing is, 0 where it is covered.
+    pub transmission: f64,
 }
 
 impl Moment {
@@ -242,7 +244,8 @@ impl Exposure {
     /// Light from ranges: the camera's own falls with the square of the range, ambient light does not.
     pub fn light(&mut self) {
         let position_m = self.position_m + self.falloff_share * self.way_m();
-        let (pixels, lit) = (&*self.pixels, f64::from(u8::from(self.moment.lit)));
+        let Moment { lit, transmission, .. } = self.moment;
+        let (pixels, lit) = (&*self.pixels, transmission * f64::from(u8::from(lit)));
         let (mut amplitudes, mut constants) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
         let (amplitude_dn, constant_dn) = (&mut amplitudes[..], &mut constants[..]);
         widest!((pixels: &'a Pixels, position_m: f64, lit: f64,
@@ -260,6 +263,9 @@ impl Exposure {
         });
         (self.amplitude_dn, self.constant_dn) = (amplitudes.into(), constants.into());
         self.ambient_dn = pixels.ambient_dn.clone();
+        if transmission != 1.0 {
+            self.ambient_dn.iter_mut().for_each(|light| *light *= transmission);
+        }
     }
 
     /// Charge from light: amplitude times waveform, and what is constant.

@@ -4,6 +4,7 @@ mod curves;
 mod left_out;
 mod page;
 mod paragraph;
+mod proposed;
 mod text;
 
 pub use page::diagnosis_page;

@@ -3,6 +3,7 @@
 use super::curves::curve;
 use super::left_out::sentences;
 use super::paragraph::{chance, paragraph};
+use super::proposed::to_separate;
 use super::text::probability;
 use crate::diagnose::{Agreement, Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
@@ -132,18 +133,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
         .chain(diagnosis.held_out.of_schemes().iter().flat_map(of_scheme))
         .collect(),
         evidence: evidence(diagnosis),
-        next: answer
-            .next_recording
-            .iter()
-            .map(|next| {
-                format!(
-                    "{}: {} (expected {:.0} standard deviations)",
-                    next.to_separate.join(" or "),
-                    next.what,
-                    next.expected_rho
-                )
-            })
-            .collect(),
+        next: to_separate(&answer.next_recording),
         invisible: answer.invisible.iter().map(|row| vec![row.name.to_owned(), row.why.clone()]).collect(),
         smallest: answer
             .smallest_detectable

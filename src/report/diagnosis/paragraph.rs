@@ -14,6 +14,9 @@ pub fn paragraph(answer: &Answer) -> String {
     let sentences =
         answer.effects.iter().map(|effect| effect.sentence.as_str()).collect::<Vec<_>>().join(" ");
     match answer.verdict {
+        "clean" if answer.probability_of_mismatch > 0.5 => {
+            "Simulation and recordings agree within the noise, but for a trace of something that is too weak to be named, or placed.".to_owned()
+        }
         "clean" => "Simulation and recordings agree within the noise.".to_owned(),
         "unexplained" => format!(
             "The recordings differ from the simulation{}, and no effect that is known here explains it.{}",

@@ -2,6 +2,7 @@
 
 use super::left_out::sentences;
 use super::paragraph::{chance, counted, paragraph};
+use super::proposed::to_separate;
 use crate::diagnose::{Agreement, Diagnosis, HeldOut, HeldOutRow};
 use std::fmt::Write;
 use std::path::Path;
@@ -81,15 +82,8 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         let share = 100.0 * answer.remainder.share;
         let _ = writeln!(text, "Left: {share:.1} % of the mismatch, most of it over {coordinate}");
     }
-    for next in &answer.next_recording {
-        let _ = writeln!(
-            text,
-            "To separate {}: {} (expected {:.1} standard deviations{})",
-            next.to_separate.join(" from "),
-            next.what,
-            next.expected_rho,
-            if next.expected_rho < ENOUGH_RHO { ": none that is proposed here is enough" } else { "" }
-        );
+    for line in to_separate(&answer.next_recording).into_iter().take(MOST) {
+        let _ = writeln!(text, "{line}");
     }
     if !answer.invisible.is_empty() {
         let names: Vec<&str> = answer.invisible.iter().map(|row| row.name).collect();
@@ -132,9 +126,6 @@ fn of_schemes(held: &HeldOut) -> String {
     };
     held.of_schemes().iter().map(of).collect()
 }
-
-/// A recording that separates by less does not.
-const ENOUGH_RHO: f64 = 3.0;
 
 /// The error of a set's distance before and after, m, where there is one.
 fn distance(what: &str, rms_m: [f64; 2]) -> String {
