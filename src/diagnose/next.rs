@@ -6,8 +6,9 @@
 
 use super::columns::Tangents;
 use super::data::{Data, Take};
+use super::evidence::VISIBLE;
 use super::fit::Fit;
-use super::gram::Gram;
+use super::gram::{Gram, Projected};
 use super::judge::Judgement;
 use super::noise::Noise;
 use super::pass::DISBELIEF;
@@ -59,7 +60,11 @@ pub fn next(data: &Data, judgement: &Judgement) -> Vec<Next> {
             let best_take = |proposal: &Proposal| {
                 (0..takes.len()).map(|take| of(proposal, take)).max_by(|a, b| a.rho.total_cmp(&b.rho))
             };
-            let mut best: Vec<Next> = PROPOSALS.iter().filter_map(best_take).collect();
+            let mut best: Vec<Next> = PROPOSALS
+                .iter()
+                .filter(|proposal| !(proposal.is_of_places && data.assumed.still_scene))
+                .filter_map(best_take)
+                .collect();
             best.sort_by(|a, b| b.rho.total_cmp(&a.rho));
             let is_worth = |(place, next): &(usize, Next)| *place == 0 || next.rho > ENOUGH_RHO;
             let best = best.into_iter().enumerate().take(MOST_RECORDINGS).filter(is_worth);
@@ -110,15 +115,18 @@ impl<'a> Pair<'a> {
         }
         let (tangents, columns) = Tangents::new(&self.data, &self.fit.pixels, &own, &shapes.concat());
         let gram = Gram::of(&self.data, &tangents, noise, &|_| true);
-        let matrix = gram.project(Some(self.fit.jitter_m2)).matrix;
+        let Projected { matrix, raw, .. } = gram.project(Some(self.fit.jitter_m2));
         if matrix.iter().any(|value| !value.is_finite()) {
             return [0.0; 2];
         }
+        // Of what the pixels' own numbers absorb altogether, rounding is left.
+        let is_seen = |column: usize| matrix[(column, column)] > VISIBLE * raw[column];
         let mut first = 0;
         let mut columns_of = |pieces: usize| -> Vec<usize> {
             let pieces = first..first + pieces;
             first = pieces.end;
-            (0..columns.len()).filter(|&column| pieces.contains(&columns[column].piece)).collect()
+            let of = (0..columns.len()).filter(|&column| pieces.contains(&columns[column].piece));
+            of.filter(|&column| is_seen(column)).collect()
         };
         let of_own = columns_of(own.len());
         let of_shapes: Vec<Vec<usize>> = shapes.iter().map(|shape| columns_of(shape.len())).collect();
@@ -139,7 +147,12 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// What is left of the chi squared of the columns `own`, changed by `theta`, beside the columns `others`.
+/// Less of a unit number is rounding.
+const LEAST_SINGULAR: f64 = 1e-9;
+/// Steps of a decomposition, which takes some ten a column.
+const MOST_STEPS: usize = 10_000;
+
+/// What is left of the chi squared of the columns `own`, changed by `theta`, beside the columns `others`; nothing where that cannot be computed.
 fn left(matrix: &DMatrix<f64>, own: &[usize], others: &[usize], theta: &DVector<f64>) -> f64 {
     let part = |rows: &[usize], columns: &[usize]| {
         DMatrix::from_fn(rows.len(), columns.len(), |row, column| matrix[(rows[row], columns[column])])
@@ -149,12 +162,15 @@ fn left(matrix: &DMatrix<f64>, own: &[usize], others: &[usize], theta: &DVector<
         return all;
     }
     // Each by its own unit: numbers of different units stand side by side.
-    let unit = |column: usize| matrix[(column, column)].max(f64::MIN_POSITIVE).sqrt().recip();
+    let unit = |column: usize| matrix[(column, column)].sqrt().recip();
     let units = DVector::from_vec(others.iter().map(|&column| unit(column)).collect());
     let within = part(others, others).component_mul(&(&units * units.transpose()));
     let shared = (part(others, own) * theta).component_mul(&units);
-    let inverse = within.pseudo_inverse(1e-9);
-    inverse.map_or(all, |inverse| all - shared.dot(&(inverse * &shared)))
+    // By no more than so many steps: there is no end where something is no number.
+    let svd = within.try_svd(true, true, f64::EPSILON, MOST_STEPS);
+    let inverse = svd.and_then(|svd| svd.pseudo_inverse(LEAST_SINGULAR).ok());
+    let left = inverse.map(|inverse| all - shared.dot(&(inverse * &shared)));
+    left.filter(|left| left.is_finite()).unwrap_or(0.0)
 }
 
 #[cfg(test)]
@@ -173,6 +189,11 @@ mod tests {
         assert_eq!(left(&[]), 36.0);
         assert!((left(&[1]) - 18.0).abs() < 1e-9);
         assert!(left(&[2]).abs() < 1e-6 && left(&[1, 2]).abs() < 1e-6);
+        // A column of which nothing is left but rounding, or no number, comes to an end, and promises nothing.
+        for rounding in [-1e-18, 0.0, f64::NAN] {
+            let matrix = DMatrix::from_row_slice(2, 2, &[4.0, 1e-9, 1e-9, rounding]);
+            assert_eq!(super::left(&matrix, &[0], &[1], &DVector::from_element(1, 3.0)), 0.0, "{rounding}");
+        }
     }
 
     /// The plan is taken, with noise, as it is with the asserted effect; the rival, fitted to both recordings, is worse by what was promised.
