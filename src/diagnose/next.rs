@@ -30,6 +30,8 @@ pub struct Next {
 /// So many rivals of an effect are looked at, and so many recordings proposed for each: not every bench has every device.
 const MOST_RIVALS: usize = 3;
 const MOST_RECORDINGS: usize = 2;
+/// Effects with a number for each frame of a set.
+const BY_FRAME: [&str; 2] = ["frame_gain", "phase_step_errors"];
 /// A recording that separates by less does not.
 pub const ENOUGH_RHO: f64 = 3.0;
 
@@ -60,11 +62,11 @@ pub fn next(data: &Data, judgement: &Judgement) -> Vec<Next> {
             let best_take = |proposal: &Proposal| {
                 (0..takes.len()).map(|take| of(proposal, take)).max_by(|a, b| a.rho.total_cmp(&b.rho))
             };
-            let mut best: Vec<Next> = PROPOSALS
-                .iter()
-                .filter(|proposal| !(proposal.is_of_places && data.assumed.still_scene))
-                .filter_map(best_take)
-                .collect();
+            let by_frame = [named.name, rival.effect.name].iter().any(|name| BY_FRAME.contains(name));
+            let can_be = |proposal: &&Proposal| {
+                !(proposal.is_of_places && data.assumed.still_scene || proposal.has_other_frames && by_frame)
+            };
+            let mut best: Vec<Next> = PROPOSALS.iter().filter(can_be).filter_map(best_take).collect();
             best.sort_by(|a, b| b.rho.total_cmp(&a.rho));
             let is_worth = |(place, next): &(usize, Next)| *place == 0 || next.rho > ENOUGH_RHO;
             let best = best.into_iter().enumerate().take(MOST_RECORDINGS).filter(is_worth);

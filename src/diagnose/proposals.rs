@@ -10,6 +10,8 @@ pub struct Proposal {
     pub what: &'static str,
     /// Whether it matters where the target is, which nobody knows of a still scene.
     pub is_of_places: bool,
+    /// Whether sets have other frames then, of which an effect with a number for each frame says nothing.
+    pub has_other_frames: bool,
     /// How a set's frames would be taken instead, and the set's number among those that are.
     pub plan: fn(&[Moment], usize) -> Vec<Moment>,
 }
@@ -19,31 +21,37 @@ pub const PROPOSALS: [Proposal; 9] = [
     Proposal {
         what: "the same with another modulation frequency (4/3 of it)",
         is_of_places: true,
+        has_other_frames: false,
         plan: |set, _| each(set, |m| Moment { frequency_hz: m.frequency_hz * 4.0 / 3.0, ..m }),
     },
     Proposal {
         what: "the same with the phase steps in reversed order",
         is_of_places: false,
+        has_other_frames: false,
         plan: |set, _| each(set, |m| Moment { step_rad: -m.step_rad, ..m }),
     },
     Proposal {
         what: "the same without the camera's light",
         is_of_places: false,
+        has_other_frames: false,
         plan: |set, _| each(set, |m| Moment { lit: false, ..m }),
     },
     Proposal {
         what: "the same with the lens covered",
         is_of_places: false,
+        has_other_frames: false,
         plan: |set, _| each(set, |m| Moment { transmission: 0.0, ..m }),
     },
     Proposal {
         what: "the same through a neutral filter (a quarter of the light)",
         is_of_places: false,
+        has_other_frames: false,
         plan: |set, _| each(set, |m| Moment { transmission: 0.25, ..m }),
     },
     Proposal {
         what: "the same at twice the velocity, or moving where it stood (1 m/s)",
         is_of_places: true,
+        has_other_frames: false,
         plan: |set, _| {
             let faster = |velocity_m_s| if velocity_m_s == 0.0 { 1.0 } else { 2.0 * velocity_m_s };
             each(set, |m| Moment { velocity_m_s: faster(m.velocity_m_s), ..m })
@@ -52,6 +60,7 @@ pub const PROPOSALS: [Proposal; 9] = [
     Proposal {
         what: "the same at a third of the distance",
         is_of_places: true,
+        has_other_frames: false,
         plan: |set, _| {
             each(set, |m| Moment { position_m: m.position_m / 3.0, place_m: m.place_m / 3.0, ..m })
         },
@@ -59,11 +68,17 @@ pub const PROPOSALS: [Proposal; 9] = [
     Proposal {
         what: "the same at other phase offsets, over the whole turn",
         is_of_places: false,
+        has_other_frames: false,
         plan: |set, number| {
             each(set, |m| Moment { offset_rad: TAU * (GOLDEN * (number + 1) as f64).fract(), ..m })
         },
     },
-    Proposal { what: "the same with twice as many phase steps a set", is_of_places: false, plan: finer },
+    Proposal {
+        what: "the same with twice as many phase steps a set",
+        is_of_places: false,
+        has_other_frames: true,
+        plan: finer,
+    },
 ];
 
 /// The golden section: that of a turn, again and again, goes evenly over the turn, and a single one to its other side.
