@@ -48,7 +48,10 @@ impl Case<'_> {
         let is_known = names > 0 && !self.is_misnamed;
         let may_leave = form_share(self.named);
         // What is left by a form that is not believed to be better than that is so in every coordinate alike.
-        let is_of_form = self.remainder < may_leave / DISBELIEF || self.left_there < may_leave;
+        // Far from the baseline a coordinate shows less than there is, and of an undescribed camera a part of several things.
+        let is_comparable = self.is_described && !self.is_far;
+        let is_more_there = is_comparable && self.left_there >= may_leave;
+        let is_of_form = self.remainder < may_leave / DISBELIEF || !is_more_there;
         let leaves_little = self.remainder < may_leave && is_of_form && !(self.stays && names > 2);
         // A simulation of which nothing is described leaves out several things at once: what explains most of them is worth its name.
         let most_left = if names == 1 && self.is_described { 0.1 } else { 0.5 };
@@ -149,6 +152,11 @@ mod tests {
         let verdict = |remainder, left_there| Case { left_there, ..case(&one, remainder) }.verdict();
         assert_eq!(verdict(0.2, 0.2), Verdict::Explained);
         assert_eq!(verdict(0.2, 0.5), Verdict::Unexplained);
+        for change in [|case: &mut Case| case.is_far = true, |case: &mut Case| case.is_described = false] {
+            let mut case = Case { left_there: 0.5, ..case(&one, 0.2) };
+            change(&mut case);
+            assert_eq!(case.verdict(), Verdict::Explained);
+        }
         // Of next to nothing that is left it does not matter where.
         assert_eq!(verdict(0.07, 0.5), Verdict::Explained);
     }

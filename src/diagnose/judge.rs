@@ -126,8 +126,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         is_far,
         remainder,
         stays: !data.assumed.camera && stays(&places, &left),
-        // Far from the baseline a coordinate shows less than there is.
-        left_there: if data.assumed.camera || is_far { 0.0 } else { left_there },
+        left_there,
         is_described: !data.assumed.camera,
     };
     let mut verdict = case.verdict();

@@ -14,6 +14,7 @@ use super::noise::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::proposals::{PROPOSALS, Proposal, thinned};
+use super::vote::COLUMNS;
 use nalgebra::{DMatrix, DVector};
 
 /// A proposal, for an asserted effect and its rival.
@@ -30,50 +31,81 @@ pub struct Next {
 /// So many rivals of an effect are looked at, and so many recordings proposed for each: not every bench has every device.
 const MOST_RIVALS: usize = 3;
 const MOST_RECORDINGS: usize = 2;
-/// Effects with a number for each frame of a set.
-const BY_FRAME: [&str; 2] = ["frame_gain", "phase_step_errors"];
 /// A recording that separates by less does not.
 pub const ENOUGH_RHO: f64 = 3.0;
+
+/// An asserted effect against a rival.
+struct Contest<'a> {
+    name: &'static str,
+    own: Vec<Piece>,
+    rival: &'a Candidate,
+    /// The best take of each proposal.
+    proposals: Vec<Next>,
+}
+
+impl Contest<'_> {
+    fn names(&self) -> [&'static str; 2] {
+        [self.name, self.rival.effect.name]
+    }
+
+    /// Whether `proposal` can be simulated: sets with other frames say nothing of an effect with a number for each frame.
+    fn admits(&self, proposal: &Proposal) -> bool {
+        let by_frame = COLUMNS.iter().any(|(name, _)| self.names().contains(name));
+        !(proposal.has_other_frames && by_frame)
+    }
+}
 
 /// The best recordings for each asserted effect and each of its first rivals.
 pub fn next(data: &Data, judgement: &Judgement) -> Vec<Next> {
     let candidates = candidates(data, &judgement.found.baseline.series);
-    let takes: Vec<Take> = data.takes.iter().map(|take| thinned(take, data.pixels())).collect();
-    let mut found = Vec::new();
+    let mut contests: Vec<Contest> = Vec::new();
     for named in &judgement.named {
         let is_own = |piece: &&Piece| piece.effect.name == named.name;
         let own: Vec<Piece> = judgement.fit.pieces.iter().filter(is_own).cloned().collect();
         let rivals = named.rivals.iter();
         let rivals = rivals.filter_map(|rival| candidates.iter().find(|other| other.effect.name == *rival));
-        for rival in rivals.take(MOST_RIVALS) {
-            let form = DISBELIEF * tolerance(named.name).max(tolerance(rival.effect.name));
-            let of = |proposal: &Proposal, number: usize| {
-                let thinned = &takes[number];
-                // What all sets say grows with their number.
-                let sets = data.takes[number].moments.len() as f64 / thinned.moments.len() as f64;
-                let pair = Pair::of(data, &judgement.fit, thinned, proposal, number);
-                let [left, explained] = pair.separation(judgement.noise, &own, rival);
+        let against = |rival| Contest { name: named.name, own: own.clone(), rival, proposals: Vec::new() };
+        contests.extend(rivals.take(MOST_RIVALS).map(against));
+    }
+    let takes: Vec<Take> = data.takes.iter().map(|take| thinned(take, data.pixels())).collect();
+    // Recordings are not copied for each pair.
+    let camera = data.with_takes(Vec::new());
+    for proposal in PROPOSALS.iter().filter(|proposal| !(proposal.is_of_places && data.assumed.still_scene)) {
+        let mut asked: Vec<&mut Contest> =
+            contests.iter_mut().filter(|contest| contest.admits(proposal)).collect();
+        if asked.is_empty() {
+            continue;
+        }
+        let of_take = |number: usize| -> Vec<Next> {
+            let thinned = &takes[number];
+            // What all sets say grows with their number.
+            let sets = data.takes[number].moments.len() as f64 / thinned.moments.len() as f64;
+            let pair = Pair::of(&camera, &judgement.fit, thinned, proposal, number);
+            let of = |contest: &&mut Contest| {
+                let [left, explained] = pair.separation(judgement.noise, &contest.own, contest.rival);
+                let form = DISBELIEF * contest.names().map(tolerance).into_iter().fold(0.0, f64::max);
                 Next {
-                    between: [named.name.to_owned(), rival.effect.name.to_owned()],
+                    between: contest.names().map(str::to_owned),
                     what: format!("{}: {}", thinned.name, proposal.what),
                     rho: (sets * (left - form * explained)).max(0.0).sqrt(),
                 }
             };
-            let best_take = |proposal: &Proposal| {
-                (0..takes.len()).map(|take| of(proposal, take)).max_by(|a, b| a.rho.total_cmp(&b.rho))
-            };
-            let by_frame = [named.name, rival.effect.name].iter().any(|name| BY_FRAME.contains(name));
-            let can_be = |proposal: &&Proposal| {
-                !(proposal.is_of_places && data.assumed.still_scene || proposal.has_other_frames && by_frame)
-            };
-            let mut best: Vec<Next> = PROPOSALS.iter().filter(can_be).filter_map(best_take).collect();
-            best.sort_by(|a, b| b.rho.total_cmp(&a.rho));
-            let is_worth = |(place, next): &(usize, Next)| *place == 0 || next.rho > ENOUGH_RHO;
-            let best = best.into_iter().enumerate().take(MOST_RECORDINGS).filter(is_worth);
-            found.extend(best.map(|(_, next)| next));
+            asked.iter().map(of).collect()
+        };
+        let by_take: Vec<Vec<Next>> = (0..takes.len()).map(of_take).collect();
+        for (place, contest) in asked.iter_mut().enumerate() {
+            let of_all = by_take.iter().map(|of_take| &of_take[place]);
+            contest.proposals.extend(of_all.max_by(|a, b| a.rho.total_cmp(&b.rho)).cloned());
         }
     }
-    found
+    contests.into_iter().flat_map(|contest| best(contest.proposals)).collect()
+}
+
+/// The best of the `proposals`, and a second one if that is enough, too.
+fn best(mut proposals: Vec<Next>) -> Vec<Next> {
+    proposals.sort_by(|a, b| b.rho.total_cmp(&a.rho));
+    let is_worth = |(place, next): &(usize, Next)| *place == 0 || next.rho > ENOUGH_RHO;
+    proposals.into_iter().enumerate().take(MOST_RECORDINGS).filter(is_worth).map(|(_, next)| next).collect()
 }
 
 /// A recording and a proposed change of it, as a campaign of their own.
@@ -85,7 +117,7 @@ struct Pair<'a> {
 }
 
 impl<'a> Pair<'a> {
-    /// With `recorded`, number `take` of `data`. What would be measured does not matter, only that it would be, and not be clipped: samples of the plan are 0.
+    /// With `recorded`, number `take` of the campaign whose camera `data` has. What would be measured does not matter, only that it would be, and not be clipped: samples of the plan are 0.
     fn of(data: &Data, fit: &'a Fit, recorded: &Take, proposal: &Proposal, take: usize) -> Self {
         let planned = proposal.of(recorded);
         let frames = planned.moments.len();
@@ -112,10 +144,11 @@ impl<'a> Pair<'a> {
         let own = self.acting(own);
         let shapes: Vec<Vec<Piece>> =
             rival.variants.iter().map(|variant| self.acting(&variant.pieces)).collect();
-        if own.is_empty() || shapes.concat().is_empty() {
+        let rival = shapes.concat();
+        if own.is_empty() || rival.is_empty() {
             return [0.0; 2];
         }
-        let (tangents, columns) = Tangents::new(&self.data, &self.fit.pixels, &own, &shapes.concat());
+        let (tangents, columns) = Tangents::new(&self.data, &self.fit.pixels, &own, &rival);
         let gram = Gram::of(&self.data, &tangents, noise, &|_| true);
         let Projected { matrix, raw, .. } = gram.project(Some(self.fit.jitter_m2));
         if matrix.iter().any(|value| !value.is_finite()) {

@@ -33,8 +33,8 @@ pub struct Names {
     own: Option<(&'static str, &'static str)>,
 }
 
-/// Effects of which each number is what some columns are: these say nothing else. Coordinate, and way of being off.
-const COLUMNS: [(&str, (&str, &str)); 2] =
+/// Effects with a number for each frame of a set, of which each is what some columns are: these say nothing else. Coordinate, and way of being off.
+pub const COLUMNS: [(&str, (&str, &str)); 2] =
     [("phase_step_errors", ("frame", "phase")), ("frame_gain", ("frame", "gain"))];
 
 impl Names {
