@@ -5,6 +5,7 @@ use super::fit::{Fit, fit_until};
 use super::noise::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
+use rayon::prelude::*;
 
 /// One set in so many of each recording is looked at first: no multiple of how often positions are repeated, as a rule.
 const PART: usize = 7;
@@ -44,7 +45,7 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         fit_until(data, current, pieces.to_vec(), noise, &is_in, PART_ENOUGH)
     };
     let before = of_part(&current.pieces);
-    let fits: Vec<Fit> = entrants.iter().map(|entrant| of_part(&entrant.pieces)).collect();
+    let fits: Vec<Fit> = entrants.par_iter().map(|entrant| of_part(&entrant.pieces)).collect();
     let explained = |left: &dyn Fn(&Fit) -> f64, (entrant, fit): (&Entrant, &Fit)| {
         let numbers = fit.columns.len().saturating_sub(before.columns.len()) as f64;
         let all = left(&before) - left(fit);

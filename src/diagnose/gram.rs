@@ -8,7 +8,9 @@ use super::coupled::{Coupled, Stack, taken};
 use super::data::Data;
 use super::encoder_noise::jitter;
 use super::in_order::joined;
+use super::inverse::inverse;
 use super::noise::Noise;
+use super::panels::lower_product;
 use super::set_errors::{self, Jitter, SetErrors, of_reading};
 use super::whiten::{tails, whiten};
 use crate::widest::widest;
@@ -39,6 +41,9 @@ pub struct Gram {
 /// What blocks have in a frame: the columns that act.
 pub type Filled = Vec<Acting>;
 
+/// A frame of a set: its number in the recording, model and tangents, roots of weights and whitened residual, and what blocks have in it.
+type Made = (usize, Frame, (Vec<f64>, Vec<f64>), Filled);
+
 /// Pairs of a pixel's own numbers.
 const PAIRS: [(usize, usize); OWN * (OWN + 1) / 2] =
     [(0, 0), (0, 1), (0, 2), (0, 3), (1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)];
@@ -66,6 +71,9 @@ pub struct Whitened<'a> {
 /// Sets are summed in so many chunks, of so many sets at least and at most.
 const CHUNKS: usize = 16;
 const CHUNK: (usize, usize) = (8, 64);
+/// Of fewer sets, frames are made side by side, so many at a time.
+const FEW: usize = 16;
+const FRAMES: usize = 4;
 /// So many errors of sets, or those of one set, are freed of the pixels' own numbers at a time.
 const TOGETHER: usize = 64;
 
@@ -141,6 +149,7 @@ impl Gram {
         let chunk = sets.len().div_ceil(CHUNKS).clamp(CHUNK.0, CHUNK.1);
         let indexed: Vec<(usize, (usize, usize))> =
             sets.into_iter().enumerate().filter(|&(n, _)| counts(n)).collect();
+        let is_few = indexed.len() < FEW;
         let of_chunk = |sets: &[(usize, (usize, usize))]| {
             let mut sums = Self::empty(pixels, &columns, count, noise.jitter);
             let mut visited = T::default();
@@ -151,19 +160,31 @@ impl Gram {
                 for (block, columns) in sums.blocks.iter_mut().zip(&columns) {
                     block.errors[number] = DMatrix::zeros(errors, columns + 1);
                 }
-                for index in set * frames..(set + 1) * frames {
+                let made = |index: usize| -> Made {
                     let frame = tangents.frame(take, index);
-                    let (roots, residual) = whiten(data, take, index, &frame.base, noise);
-                    let (roots, residual) = (&roots[..], &residual[..]);
+                    let whitened = whiten(data, take, index, &frame.base, noise);
+                    let filled = fill(take, index, &frame);
+                    (index, frame, whitened, filled)
+                };
+                let mut add = |(index, frame, (roots, residual), filled): Made| {
+                    let (frame, roots, residual) = (&frame, &roots[..], &residual[..]);
                     let velocity_m_s = data.takes[take].moments[index].velocity_m_s;
-                    let frame = &frame;
                     let whitened =
                         Whitened { take, set: number, index, frame, roots, residual, velocity_m_s };
-                    visited = visit(visited, &whitened);
+                    visited = visit(std::mem::take(&mut visited), &whitened);
                     let measured = &data.takes[take].signal_dn[index * pixels..(index + 1) * pixels];
                     sums.ln_variance += noise.ln_variance(measured, roots);
                     sums.beyond += tails(measured, &frame.base, roots, residual).sum::<f64>();
-                    sums.add(data, &whitened, &fill(take, index, frame));
+                    sums.add(data, &whitened, &filled, is_few);
+                };
+                let indices = set * frames..(set + 1) * frames;
+                if is_few {
+                    for some in indices.collect::<Vec<_>>().chunks(FRAMES) {
+                        let made: Vec<_> = some.par_iter().map(|&index| made(index)).collect();
+                        made.into_iter().for_each(&mut add);
+                    }
+                } else {
+                    indices.map(made).for_each(add);
                 }
             }
             sums.blocks.iter_mut().for_each(Block::settle);
@@ -173,8 +194,8 @@ impl Gram {
             .unwrap_or_else(|| (Self::empty(pixels, &columns, count, noise.jitter), T::default()))
     }
 
-    /// With a frame, and what each block has there beside the columns that all share.
-    fn add(&mut self, data: &Data, whitened: &Whitened, filled: &Filled) {
+    /// With a frame, and what each block has there beside the columns that all share; the blocks side by side, where these are.
+    fn add(&mut self, data: &Data, whitened: &Whitened, filled: &Filled, are_side_by_side: bool) {
         let rows = Rows::of(data, whitened, self.jitter);
         let (set, moment) = (whitened.set, &data.takes[whitened.take].moments[whitened.index]);
         let places: Vec<usize> = set_errors::places(self.jitter, moment.frame).collect();
@@ -190,8 +211,12 @@ impl Gram {
         self.chi2 += rows.residual.iter().map(|residual| residual * residual).sum::<f64>();
         self.samples += rows.roots.iter().filter(|root| **root > 0.0).count();
         let shared = &whitened.frame.columns;
-        for (block, filled) in self.blocks.iter_mut().zip(filled) {
+        let add = |(block, filled): (&mut Block, &Acting)| {
             block.add(set, &places, &rows, shared, filled, whitened.frame.count);
+        };
+        match are_side_by_side {
+            true => self.blocks.par_iter_mut().zip(filled).for_each(add),
+            false => self.blocks.iter_mut().zip(filled).for_each(add),
         }
     }
 
@@ -206,7 +231,7 @@ impl Gram {
             inverse(&own)
         };
         let pixels = self.own[0].len();
-        let inverses: Vec<Matrix4<f64>> = (0..pixels).map(of).collect();
+        let inverses: Vec<Matrix4<f64>> = (0..pixels).into_par_iter().map(of).collect();
         let phases = |pixel: usize| Vector4::from(PHASES.map(|pair| self.own[pair][pixel]));
         let common = || CommonPhase::of(&(0..pixels).map(phases).collect::<Vec<_>>(), &inverses);
         let common = (self.jitter != [0.0; 2]).then(common).flatten();
@@ -229,10 +254,10 @@ impl Gram {
         self.blocks.par_iter().map(|block| self.project_block(block, &solved, Some(jitter_m2))).collect()
     }
 
-    fn project_block(
+    fn project_block<'a>(
         &self,
         block: &Block,
-        Solved { inverses, common, left, coupled }: &Solved,
+        Solved { inverses, common, left, coupled }: &'a Solved,
         jitter_m2: Option<f64>,
     ) -> Projected {
         let (size, pixels) = (block.full.nrows(), inverses.len());
@@ -245,7 +270,7 @@ impl Gram {
             }
         }
         let with_common = common.as_ref().map(|common| (common, common.freed(&block.mixed, &mut solved)));
-        let own = block.mixed.transpose() * &solved;
+        let own = lower_product(&block.mixed, &solved);
         let mut settled = own[(size - 1, size - 1)];
         let mut full = &block.full - own;
         full.fill_upper_triangle_with_lower_triangle();
@@ -255,8 +280,7 @@ impl Gram {
         let of_sets = block.errors.iter().zip(&self.errors).zip(left);
         let seen: Vec<_> = of_sets.filter_map(|(of, left)| Some((of, left.as_ref()?))).collect();
         let errors = seen.iter().map(|(_, left)| left.nrows()).max().unwrap_or(1);
-        let mut sums: Vec<Stack> = Vec::new();
-        for seen in seen.chunks((TOGETHER / errors).max(1)) {
+        let stack = |seen: &[((&DMatrix<f64>, &SetErrors), &'a DMatrix<f64>)]| {
             let own: Vec<f64> = seen.iter().flat_map(|((_, errors), _)| errors.own()).collect();
             let own = DMatrix::from_vec(solved.nrows(), own.len() / solved.nrows(), own);
             let mut of = own.transpose() * &solved;
@@ -274,8 +298,9 @@ impl Gram {
                 lefts.push((first, left));
                 first += left.nrows();
             }
-            sums.push((of, lefts));
-        }
+            (of, lefts)
+        };
+        let mut sums: Vec<Stack> = seen.par_chunks((TOGETHER / errors).max(1)).map(stack).collect();
         let residual = size - 1;
         let jitter_m2 = jitter_m2.unwrap_or_else(|| {
             let of = |(sums, lefts): &Stack| -> Vec<(f64, f64)> {
@@ -324,17 +349,6 @@ struct Solved {
 fn own_of(all: &[f64], pixel: usize) -> Vector4<f64> {
     let pixels = all.len() / OWN;
     Vector4::from_fn(|number, _| all[number * pixels + pixel])
-}
-
-/// Pseudo-inverse: what a pixel's own numbers are not told apart by stays where it is.
-fn inverse(own: &Matrix4<f64>) -> Matrix4<f64> {
-    let scale =
-        Vector4::from_fn(|row, _| if own[(row, row)] > 0.0 { own[(row, row)].sqrt().recip() } else { 0.0 });
-    let scaled = Matrix4::from_fn(|row, column| own[(row, column)] * scale[row] * scale[column]);
-    let eigen = scaled.symmetric_eigen();
-    let kept = eigen.eigenvalues.map(|value| if value > 1e-9 { value.recip() } else { 0.0 });
-    let inverse = eigen.eigenvectors * Matrix4::from_diagonal(&kept) * eigen.eigenvectors.transpose();
-    Matrix4::from_fn(|row, column| inverse[(row, column)] * scale[row] * scale[column])
 }
 
 impl Projected {

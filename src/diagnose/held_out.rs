@@ -65,17 +65,21 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     let is_few = data.sets().len() < FOLDS * GROUP;
     let holding = if is_few { Holding::of(data) } else { None };
     let predict = |by: Predictor| -> Vec<Seen> {
-        let of_half = |half| holding.iter().flat_map(move |holding| predicted_half(data, by, holding, half));
-        let predicted = match is_few {
-            true => (0..HALVES).flat_map(of_half).collect(),
-            false => (0..FOLDS).flat_map(|fold| predicted(data, by, fold, before.fit.is_far())).collect(),
+        let of_half =
+            |half| holding.as_ref().map_or_else(Vec::new, |holding| predicted_half(data, by, holding, half));
+        let predicted: BTreeMap<usize, Seen> = match is_few {
+            true => (0..HALVES).into_par_iter().flat_map_iter(of_half).collect(),
+            false => (0..FOLDS)
+                .into_par_iter()
+                .flat_map_iter(|fold| predicted(data, by, fold, before.fit.is_far()))
+                .collect(),
         };
-        BTreeMap::into_values(predicted).collect()
+        predicted.into_values().collect()
     };
-    let new = predict(after);
     // Jitter predicts no sample.
     let is_same = after.fit.pieces.is_empty() && after.noise == before.noise;
-    let old = if is_same { new.clone() } else { predict(before) };
+    let (new, old) = rayon::join(|| predict(after), || (!is_same).then(|| predict(before)));
+    let old = old.unwrap_or_else(|| new.clone());
     // What the camera includes is as strong as it says; what is found, as the other folds show it.
     let included = data.unpredicted.jitter;
     let with_included = |sets: Vec<Seen>| sets.into_iter().map(|set| with_jitter(set, included)).collect();
@@ -142,14 +146,13 @@ fn with_jitter(mut set: Seen, [phase_rad, time_s]: Jitter) -> Seen {
 const HALVES: usize = 2;
 
 /// A half of the image, some frames at a time: `(a number of its own for each set, what it shows)`.
-fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) -> BTreeMap<usize, Seen> {
+fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) -> Vec<(usize, Seen)> {
     let Predictor { fit: of, noise, .. } = by;
     let is_here = |pixel: usize| HALVES * pixel / data.pixels().max(1) == half;
     let elsewhere = data.only(|_, pixel| !is_here(pixel));
     let pieces = fit(&elsewhere, Some(of), of.pieces.clone(), noise, &|_| true).pieces;
     let every = holding.every;
-    let mut all = BTreeMap::<usize, Seen>::new();
-    for part in 0..every {
+    let of_part = |part: usize| -> Vec<(usize, Seen)> {
         let is_held = |frame: usize| frame % every == part;
         // Pixels that were fitted to all frames have seen the ones that are held; those of the other half light this one as before.
         let between = data.only(|frame, pixel| !is_here(pixel) || !is_held(frame));
@@ -161,19 +164,23 @@ fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) ->
         let by = Predictor { noise: noise.times(variance), ..by };
         let held = data.only(|frame, pixel| is_here(pixel) && is_held(frame) && told[pixel]);
         let (tangents, _) = Tangents::new(&held, &pixels, &pieces, &[]);
-        for (number, (take, set)) in data.sets().into_iter().enumerate() {
-            let Some(seen) = seen(&held, &tangents, by, take, set) else { continue };
+        let of_set = |(number, (take, set))| {
+            let seen = seen(&held, &tangents, by, take, set)?;
             // A part of the frames has no distance.
-            let seen = Seen { distance_m: f64::NAN, fold: half, ..seen };
-            let place = HALVES * number + half;
-            let seen = match all.remove(&place) {
-                Some(before) => before.and(seen),
-                None => seen,
-            };
-            all.insert(place, seen);
-        }
+            Some((HALVES * number + half, Seen { distance_m: f64::NAN, fold: half, ..seen }))
+        };
+        data.sets().into_iter().enumerate().filter_map(of_set).collect()
+    };
+    let parts: Vec<Vec<(usize, Seen)>> = (0..every).into_par_iter().map(of_part).collect();
+    let mut all = BTreeMap::<usize, Seen>::new();
+    for (place, seen) in parts.into_iter().flatten() {
+        let seen = match all.remove(&place) {
+            Some(before) => before.and(seen),
+            None => seen,
+        };
+        all.insert(place, seen);
     }
-    all
+    all.into_iter().collect()
 }
 
 /// The sets of a fold, by number, seen by a model that was fitted to the others. For the pixels' own numbers one step from what was fitted to all is

@@ -27,7 +27,7 @@ pub fn joined<T: Sync, R: Send>(
     all
 }
 
-/// Frames are summed in so many chunks of sets.
+/// Frames are summed in so many chunks.
 const CHUNKS: usize = 16;
 
 /// What `with` makes, one after the other, of every frame (recording, and number of the frame within it) of the sets of which `counts` is true (number of the
@@ -40,15 +40,15 @@ pub fn summed<R: Clone + Send + Sync>(
     join: impl FnMut(R, R) -> R,
 ) -> R {
     let counted = data.sets().into_iter().enumerate().filter(|&(number, _)| counts(number));
-    let sets: Vec<(usize, usize)> = counted.map(|(_, set)| set).collect();
-    let of_chunk = |sets: &[(usize, usize)]| {
-        let indices = |&(take, set): &(usize, usize)| {
-            let frames = data.takes[take].frames;
-            (set * frames..(set + 1) * frames).map(move |index| (take, index))
-        };
-        sets.iter().flat_map(indices).fold(none.clone(), |sum, (take, index)| with(sum, take, index))
+    let indices = |(_, (take, set)): (usize, (usize, usize))| {
+        let frames = data.takes[take].frames;
+        (set * frames..(set + 1) * frames).map(move |index| (take, index))
     };
-    joined(&sets, sets.len().div_ceil(CHUNKS).max(1), of_chunk, join).unwrap_or_else(|| none.clone())
+    let frames: Vec<(usize, usize)> = counted.flat_map(indices).collect();
+    let of_chunk = |frames: &[(usize, usize)]| {
+        frames.iter().fold(none.clone(), |sum, &(take, index)| with(sum, take, index))
+    };
+    joined(&frames, frames.len().div_ceil(CHUNKS).max(1), of_chunk, join).unwrap_or_else(|| none.clone())
 }
 
 #[cfg(test)]

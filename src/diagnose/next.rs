@@ -16,6 +16,7 @@ use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::proposals::{PROPOSALS, Proposal, thinned};
 use super::vote::COLUMNS;
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 /// A proposal, for an asserted effect and its rival.
 #[derive(Debug, Clone)]
@@ -92,7 +93,7 @@ pub fn next(data: &Data, judgement: &Judgement) -> Vec<Next> {
             };
             asked.iter().map(of).collect()
         };
-        let by_take: Vec<Vec<Next>> = (0..takes.len()).map(of_take).collect();
+        let by_take: Vec<Vec<Next>> = (0..takes.len()).into_par_iter().map(of_take).collect();
         for (place, contest) in asked.iter_mut().enumerate() {
             let of_all = by_take.iter().map(|of_take| &of_take[place]);
             contest.proposals.extend(of_all.max_by(|a, b| a.rho.total_cmp(&b.rho)).cloned());

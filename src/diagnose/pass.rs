@@ -188,7 +188,7 @@ impl Pass {
     pub fn fittest(
         &self,
         before: &Fit,
-        fits: impl Iterator<Item = (usize, Fit)>,
+        fits: Vec<(usize, Fit)>,
         candidates: &[Candidate],
         may_stand_for: &dyn Fn(&Fit, &Fit) -> bool,
     ) -> Option<(Model, Fit, Vec<String>)> {
@@ -198,7 +198,7 @@ impl Pass {
         let judged = |(block, fit): (usize, Fit)| {
             (self.fitted_ln_bayes(block, self.name(block, candidates), before.chi2, &fit), block, fit)
         };
-        let mut judged: Vec<(f64, usize, Fit)> = fits.map(judged).collect();
+        let mut judged: Vec<(f64, usize, Fit)> = fits.into_iter().map(judged).collect();
         // A model that is no number anywhere fits nothing.
         judged.retain(|fitted| fitted.0.is_finite());
         judged.sort_by(|a, b| b.0.total_cmp(&a.0));

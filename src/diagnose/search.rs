@@ -16,6 +16,7 @@ use super::pieces::{Candidate, Piece, candidates, tolerance};
 use super::power::Detectable;
 use super::promised::Promised;
 use super::simpler::Simpler;
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
@@ -284,7 +285,8 @@ impl<'a> Search<'a> {
                     pieces: pieces(&[&[block], others].concat()),
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
-                let fits = entrants.into_iter().map(|entrant| (entrant.block, fitted(entrant.pieces)));
+                let fit = |entrant: Entrant| (entrant.block, fitted(entrant.pieces));
+                let fits: Vec<(usize, Fit)> = entrants.into_par_iter().map(fit).collect();
                 let more = |fit: &Fit| fit.columns.len().saturating_sub(current.columns.len());
                 // Nor is a form exact beside what nobody described: what says the same by much fewer numbers is believed.
                 let is_simpler = |fit: &Fit, best: &Fit| {
