@@ -127,11 +127,17 @@ fn a_small_error_of_the_encoders_zero_is_named_or_possible() {
 }
 
 /// Sums are rounded in the same order however many threads make them: an answer must not hang on it.
+/// Of many sets, which are dealt to threads, and of few, whose frames are.
 #[test]
 fn the_answer_is_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let campaign = campaign(folder.path(), "campaign", &["lens_scatter", "clock_jitter"], "5");
-    let on = |threads: &str| {
+    let stack = folder.path().join("stack");
+    let arguments =
+        ["simulate", "--size", "10x8", "--recordings", "harmonics", "--out", stack.to_str().unwrap()];
+    let (good, text) = vuris(&[&arguments[..], &["--effect", "illumination_droop:relative=0.05"]].concat());
+    assert!(good, "{text}");
+    let on = |threads: &str, campaign: &Path| {
         let mut command = assert_cmd::Command::cargo_bin("vuris").unwrap();
         command.env("RAYON_NUM_THREADS", threads).args([
             "diagnose",
@@ -145,10 +151,12 @@ fn the_answer_is_the_same_on_any_number_of_threads() {
         verdict.as_object_mut().unwrap().remove("provenance");
         verdict
     };
-    let one = on("1");
-    assert!(!one["effects"].as_array().unwrap().is_empty(), "{one}");
-    for threads in ["2", "5"] {
-        assert_eq!(on(threads), one, "{threads}");
+    for campaign in [campaign, stack] {
+        let one = on("1", &campaign);
+        assert!(!one["effects"].as_array().unwrap().is_empty(), "{one}");
+        for threads in ["2", "5"] {
+            assert_eq!(on(threads, &campaign), one, "{threads}");
+        }
     }
 }
 

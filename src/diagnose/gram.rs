@@ -41,6 +41,9 @@ pub struct Gram {
 /// What blocks have in a frame: the columns that act.
 pub type Filled = Vec<Acting>;
 
+/// A set's errors against columns, themselves, and what the pixels' own numbers leave of them.
+type OfSet<'a, 'b> = ((&'a DMatrix<f64>, &'a SetErrors), &'b DMatrix<f64>);
+
 /// A frame of a set: its number in the recording, model and tangents, roots of weights and whitened residual, and what blocks have in it.
 type Made = (usize, Frame, (Vec<f64>, Vec<f64>), Filled);
 
@@ -280,7 +283,7 @@ impl Gram {
         let of_sets = block.errors.iter().zip(&self.errors).zip(left);
         let seen: Vec<_> = of_sets.filter_map(|(of, left)| Some((of, left.as_ref()?))).collect();
         let errors = seen.iter().map(|(_, left)| left.nrows()).max().unwrap_or(1);
-        let stack = |seen: &[((&DMatrix<f64>, &SetErrors), &'a DMatrix<f64>)]| {
+        let stack = |seen: &[OfSet<'_, 'a>]| {
             let own: Vec<f64> = seen.iter().flat_map(|((_, errors), _)| errors.own()).collect();
             let own = DMatrix::from_vec(solved.nrows(), own.len() / solved.nrows(), own);
             let mut of = own.transpose() * &solved;

@@ -1,6 +1,7 @@
 //! The fit on sets that it has not seen.
 //!
-//! Groups of four neighbouring sets are dealt to two folds; each fold is predicted by a model whose pixels and parameters are fitted to the other one. Of a few
+//! Groups of four neighbouring sets are dealt to two folds, or single sets, where one fold would have no part of the places that the other one has; each fold is
+//! predicted by a model whose pixels and parameters are fitted to the other one. Of a few
 //! sets, frames of either half of the image are predicted, some at a time: by parameters that are fitted to the other half, and pixels of the other frames.
 
 use super::columns::Tangents;
@@ -39,6 +40,9 @@ impl HeldOut {
 /// Neighbouring sets that are held out together.
 const GROUP: usize = 4;
 const FOLDS: usize = 2;
+/// A fold's places are at least so far apart, of how far all are: at one place a pixel's constant light is not told from ambient light, and what would be seen
+/// at others is anything.
+const APART: f64 = 0.5;
 
 /// What predicts: what is fitted, what noise its samples have, and which of the jitters of a frame's phase and of its time.
 #[derive(Debug, Clone, Copy)]
@@ -64,6 +68,7 @@ impl Predictor<'_> {
 pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
     let is_few = data.sets().len() < FOLDS * GROUP;
     let holding = if is_few { Holding::of(data) } else { None };
+    let group = group(data);
     let predict = |by: Predictor| -> Vec<Seen> {
         let of_half =
             |half| holding.as_ref().map_or_else(Vec::new, |holding| predicted_half(data, by, holding, half));
@@ -71,7 +76,7 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
             true => (0..HALVES).into_par_iter().flat_map_iter(of_half).collect(),
             false => (0..FOLDS)
                 .into_par_iter()
-                .flat_map_iter(|fold| predicted(data, by, fold, before.fit.is_far()))
+                .flat_map_iter(|fold| predicted(data, by, (group, fold), before.fit.is_far()))
                 .collect(),
         };
         predicted.into_values().collect()
@@ -183,11 +188,31 @@ fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) ->
     all.into_iter().collect()
 }
 
+/// How many neighbouring sets are dealt together: single ones where a fold of groups would have no part of the places.
+fn group(data: &Data) -> usize {
+    let place_m = |(take, set): (usize, usize)| {
+        let take = &data.takes[take];
+        let moment = take.moments[set * take.frames];
+        moment.lit.then_some(moment.position_m)
+    };
+    let places_m: Vec<Option<f64>> = data.sets().into_iter().map(place_m).collect();
+    let apart_m = |counts: &dyn Fn(usize) -> bool| {
+        let here =
+            places_m.iter().enumerate().filter(|(set, _)| counts(*set)).filter_map(|(_, place)| *place);
+        let ends = here.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), m| (a.min(m), b.max(m)));
+        (ends.1 - ends.0).max(0.0)
+    };
+    let all_m = apart_m(&|_| true);
+    let is_told =
+        |group: &usize| (0..FOLDS).all(|fold| apart_m(&|set| set / group % FOLDS == fold) >= APART * all_m);
+    [GROUP, 1].into_iter().find(is_told).unwrap_or(GROUP)
+}
+
 /// The sets of a fold, by number, seen by a model that was fitted to the others. For the pixels' own numbers one step from what was fitted to all is
 /// enough, unless the mismatch `is_far` above the noise.
-fn predicted(data: &Data, by: Predictor, fold: usize, is_far: bool) -> Vec<(usize, Seen)> {
+fn predicted(data: &Data, by: Predictor, (group, fold): (usize, usize), is_far: bool) -> Vec<(usize, Seen)> {
     let Predictor { fit: of, noise, .. } = by;
-    let is_held = |set: usize| set / GROUP % FOLDS == fold;
+    let is_held = |set: usize| set / group % FOLDS == fold;
     let (pixels, pieces) = if is_far || !of.pieces.is_empty() {
         let fit = fit(data, Some(of), of.pieces.clone(), noise, &|set| !is_held(set));
         (fit.pixels, fit.pieces)
@@ -206,7 +231,9 @@ fn predicted(data: &Data, by: Predictor, fold: usize, is_far: bool) -> Vec<(usiz
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
+    use crate::bench::{
+        Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor, taken,
+    };
     use crate::diagnose::fit::{fit_until, unfitted};
     use crate::diagnose::pieces::Piece;
     use crate::diagnose::stated_noise;
@@ -227,11 +254,16 @@ mod tests {
 
     /// A set of 64 frames at each of three distances, with `effects` in so many of the upper pixels.
     fn few_sets(effects: Vec<Active>, pixels: usize) -> Data {
+        sets_at_three_places(effects, pixels, 1)
+    }
+
+    /// The same with as many sets at each distance.
+    fn sets_at_three_places(effects: Vec<Active>, pixels: usize, many: usize) -> Data {
         let camera = practice_camera(GEOMETRY);
         let sensor = sensor(&camera);
         let plan = Plan::usual(SEED);
         let mut course = plan.course(HARMONICS).unwrap();
-        course.sets = course.sets.into_iter().step_by(4).collect();
+        course.sets = course.sets.into_iter().step_by(GROUP / many).collect();
         let bench = Arc::new(Stage::bench().pixels(&sensor, SEED));
         let take = |effects| {
             let chain = &chain(&camera, Arc::clone(&bench), effects);
@@ -262,6 +294,23 @@ mod tests {
         assert!(brighter.unreached > 100.0, "it is not settled: {}", brighter.unreached);
         let difference = baseline.chi2 - brighter.chi2;
         assert!(difference.abs() < 5.0, "{difference}");
+    }
+
+    /// Four sets at each of three places, one place after the other: by fours one fold would have two places and one a single one. A prediction by half of the
+    /// samples has their noise, too: 1 + 4 / 384.
+    #[test]
+    fn each_fold_has_its_part_of_the_places() {
+        let data = sets_at_three_places(Vec::new(), 0, GROUP);
+        assert_eq!((data.sets().len(), group(&data)), (12, 1));
+        let noise = stated_noise(&data);
+        let baseline = unfitted(&data, noise);
+        let held = held_out(&data, alone(&baseline, noise), alone(&baseline, noise));
+        let (samples, numbers) = ((12 * 64 * PIXELS) as f64, 4.0);
+        let expected = 1.0 + numbers / (6.0 * 64.0);
+        assert!((held.before.chi2_per_dof - expected).abs() < 4.0 * (2.0 / samples).sqrt(), "{held:?}");
+        // A rail's places are in either fold, by fours too.
+        let rail = taken(GEOMETRY, SEED, &[], &["four-rail"]).unwrap();
+        assert_eq!(group(&Data::of(&rail, Vec::new()).unwrap()), GROUP);
     }
 
     /// Odd and even frames tell the p numbers of a pixel alike. So, of its N samples, N - 2 p combinations are predicted by 0 and show their

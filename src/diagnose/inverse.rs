@@ -87,8 +87,8 @@ mod tests {
             );
         }
         // The least eigenvalue is `apart`, of both ways of inverting.
-        for apart in [1e-7, 1e-4] {
-            let expected = (1.0 - (1.0 - apart as f64).powi(2)).recip();
+        for apart in [1e-7_f64, 1e-4] {
+            let expected = (1.0 - (1.0 - apart).powi(2)).recip();
             assert!((of(apart)[(1, 1)] / expected - 1.0).abs() < 1e-5, "{apart}: {}", of(apart)[(1, 1)]);
         }
     }
