@@ -51,8 +51,8 @@ pub struct Data {
     pub assumed: Assumed,
     /// Of a grid with gaps, pixels without gaps: what neighbours make is seen there alone.
     pub close: Option<Arc<Self>>,
-    /// Whether there is a recording without the camera's light.
-    has_dark: bool,
+    /// What they show of the camera's light.
+    light: SeenLight,
 }
 
 /// What recordings may leave out.
@@ -69,12 +69,32 @@ const CLIPPED_DN: u32 = 2;
 
 /// Numbers that each pixel has at least: amplitude, phase, and light that does not follow the modulation.
 const LEAST_OWN: usize = 3;
+/// Places that differ by less of themselves are one: light goes with the square of the distance.
+const ONE_PLACE: f64 = 0.01;
 
 /// Phases that are as near are one.
 const SAME_PHASE_RAD: f64 = 1e-6;
 
 /// So many signals say from where to where signals go.
 const SPANNING: usize = 100_000;
+
+/// What recordings show of the camera's light.
+#[derive(Debug, Clone, Copy)]
+struct SeenLight {
+    /// In some frames there is none.
+    is_once_off: bool,
+    /// It comes from different distances, beyond what readings of one scatter by.
+    moves: bool,
+}
+
+impl SeenLight {
+    fn of(takes: &[Take]) -> Self {
+        let moments = || takes.iter().flat_map(|take| &take.moments);
+        let places_m = || moments().filter(|moment| moment.lit).map(Moment::commanded_m);
+        let [least_m, most_m] = [places_m().fold(f64::INFINITY, f64::min), places_m().fold(0.0, f64::max)];
+        Self { is_once_off: moments().any(|moment| !moment.lit), moves: most_m > (1.0 + ONE_PLACE) * least_m }
+    }
+}
 
 impl Data {
     /// The recordings of one campaign, in which effects of `library` may be found besides.
@@ -130,7 +150,7 @@ impl Data {
         }
         match data.phases()[..] {
             [] => Ok(data),
-            ref phases if phases.len() >= LEAST_OWN || data.moves() => Ok(data),
+            ref phases if phases.len() >= LEAST_OWN || data.light.moves => Ok(data),
             ref phases => {
                 let degrees: Vec<String> =
                     phases.iter().map(|phase| format!("{:.3}\u{b0}", phase.to_degrees())).collect();
@@ -155,14 +175,8 @@ impl Data {
     }
 
     /// The frames in the camera's light.
-    fn lit(&self) -> impl Iterator<Item = &Moment> {
+    pub fn lit(&self) -> impl Iterator<Item = &Moment> {
         self.takes.iter().flat_map(|take| &take.moments).filter(|moment| moment.lit)
-    }
-
-    /// Whether the target is not always at one distance.
-    fn moves(&self) -> bool {
-        let places_m = || self.lit().map(Moment::commanded_m);
-        places_m().fold(0.0, f64::max) > places_m().fold(f64::INFINITY, f64::min)
     }
 
     /// How many samples of each pixel count.
@@ -194,12 +208,8 @@ impl Data {
 
     /// How many numbers of its own the frames could tell of each pixel.
     fn own_numbers(&self) -> Vec<usize> {
-        // At one distance constant and ambient light are one number.
-        let moves = self.moves();
-        let own = |pixel: usize| match self.lit().next() {
-            None => 1,
-            Some(_) => LEAST_OWN + usize::from(self.has_dark || self.target[pixel] && moves),
-        };
+        let is_lit = self.lit().next().is_some();
+        let own = |pixel| if is_lit { LEAST_OWN + usize::from(self.tells_constant(pixel)) } else { 1 };
         (0..self.pixels()).map(own).collect()
     }
 
@@ -241,7 +251,7 @@ impl Data {
                     .collect(),
             });
         }
-        let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
+        let light = SeenLight::of(&takes);
         let union = recordings.iter().flat_map(|r| r.raw.codes()).fold(0, |union, code| union | code);
         let cut_bits = if union == 0 { 0 } else { union.trailing_zeros() };
         Ok(Self {
@@ -255,7 +265,7 @@ impl Data {
             library: library.to_vec(),
             assumed,
             close: None,
-            has_dark,
+            light,
         })
     }
 
@@ -321,14 +331,13 @@ impl Data {
 
     /// Whether `pixel` tells its constant light from the ambient light: where the target moves, or the camera's light is once off.
     pub fn tells_constant(&self, pixel: usize) -> bool {
-        self.target[pixel] || self.has_dark
+        self.light.is_once_off || self.target[pixel] && self.light.moves
     }
 
     /// The same camera with other recordings.
     #[must_use]
     pub fn with_takes(&self, takes: Vec<Take>) -> Self {
-        let has_dark = takes.iter().any(|take| take.moments.iter().any(|moment| !moment.lit));
-        Self { takes, has_dark, ..self.clone() }
+        Self { light: SeenLight::of(&takes), takes, ..self.clone() }
     }
 
     /// The same with this share of the strength of every effect that the camera's simulation includes.
