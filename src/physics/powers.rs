@@ -57,7 +57,13 @@ pub fn ln(value: f64) -> f64 {
 /// 1 and the logarithm's size.
 #[inline(always)]
 pub fn power(base: f64, exponent: f64) -> f64 {
-    let value = (exponent * ln(base)).clamp(-MOST, MOST);
+    exp(exponent * ln(base))
+}
+
+/// The power of e, up to ±700, which stands for all beyond: within 2e-16 of the result.
+#[inline(always)]
+pub fn exp(value: f64) -> f64 {
+    let value = value.clamp(-MOST, MOST);
     let shifted = value * std::f64::consts::LOG2_E + ROUND;
     let twos = shifted - ROUND;
     let (high, low) = (value - twos * LN_2_HIGH, twos * LN_2_LOW);
@@ -85,6 +91,10 @@ mod tests {
                 let within = 2.5e-16 * (1.0 + (exponent * ln(value)).abs());
                 assert!((is - should).abs() < within * should, "{value} ^ {exponent}: {is} {should}");
             }
+        }
+        for value in (-7000..7000).map(|number| f64::from(number) * 0.099_87) {
+            let (is, should) = (exp(value), libm::exp(value));
+            assert!((is - should).abs() <= 4.5e-16 * should, "e ^ {value}: {is} {should}");
         }
         for value in [1e-300, 1e-9, 1e9, 1e300] {
             assert!((ln(value) / libm::log(value) - 1.0).abs() < 1e-15, "{value}");

@@ -20,8 +20,8 @@ pub static EFFECT: Effect = Effect {
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let turns_a_second = TAU * exposure.frequency_hz;
-    for pixel in 0..exposure.phase_rad.len() {
+    for (pixel, phase_rad) in exposure.phase_rad.iter_mut().enumerate() {
         let (x, y) = exposure.pixels.place(pixel);
-        exposure.phase_rad[pixel] += turns_a_second * (values[0] * x + values[1] * y);
+        *phase_rad += turns_a_second * (values[0] * x + values[1] * y);
     }
 }

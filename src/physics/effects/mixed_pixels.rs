@@ -45,13 +45,14 @@ fn side(is_target: bool, pixel: usize, beyond: usize, width: usize) -> usize {
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let own = exposure.signal_dn.clone();
+    let signals_dn: &mut [f64] = &mut exposure.signal_dn;
     let width = exposure.pixels.geometry.width;
     for (number, &(pixel, beyond)) in exposure.pixels.edges.iter().enumerate() {
         let is_target = exposure.pixels.target[pixel];
         let of_all = values[usize::from(!is_target)];
         let of_side = values[side(is_target, pixel, beyond, width)];
         let share = (of_all + of_side) / exposure.pixels.edge_counts[number];
-        exposure.signal_dn[pixel] += share * (own[beyond] - own[pixel]);
+        signals_dn[pixel] += share * (own[beyond] - own[pixel]);
     }
 }
 

@@ -1,6 +1,8 @@
 //! What the pixels answer fades while they are recorded, in some regions faster than in others.
 
+use crate::physics::powers::exp;
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::widest::widest;
 
 const fn rate(name: &'static str) -> Parameter {
     Parameter::strength(name, "1/s", 0.0, (-0.5, 0.5), 0.01)
@@ -40,16 +42,30 @@ fn between(share: f64) -> (usize, f64) {
 }
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let time_s = exposure.moment.time_s;
-    for pixel in 0..exposure.pixels.count() {
-        let (x, y) = exposure.pixels.place(pixel);
-        let ((column, right), (row, down)) = (between(x), between(y));
-        let rate = |row: usize, column: usize| values[PLACES * row + column];
-        let along = |row: usize| rate(row, column) + right * (rate(row, column + 1) - rate(row, column));
-        let rate_per_s = along(row) + down * (along(row + 1) - along(row));
-        let left = libm::exp(-rate_per_s * time_s);
-        exposure.amplitude_dn[pixel] *= left;
-        exposure.constant_dn[pixel] *= left;
+    let Exposure { pixels, amplitude_dn, constant_dn, moment, .. } = exposure;
+    let (width, time_s) = (pixels.geometry.width, moment.time_s);
+    // Along each row of places, at every column.
+    let of_row = |rates: &[f64]| -> Vec<f64> {
+        let rate_per_s = |pixel: usize| {
+            let (column, right) = between(pixels.place(pixel).0);
+            rates[column] + right * (rates[column + 1] - rates[column])
+        };
+        (0..width).map(rate_per_s).collect()
+    };
+    let along: Vec<Vec<f64>> = values.chunks_exact(PLACES).map(of_row).collect();
+    let rows = amplitude_dn.chunks_exact_mut(width).zip(constant_dn.chunks_exact_mut(width));
+    for (number, (amplitudes, constants)) in rows.enumerate() {
+        let (row, down) = between(pixels.place(number * width).1);
+        let (above, below) = (&along[row][..], &along[row + 1][..]);
+        widest!((amplitudes: &'a mut [f64], constants: &'a mut [f64], above: &'a [f64], below: &'a [f64], down: f64, time_s: f64) {
+            let rates = above.iter().zip(below);
+            for ((amplitude, constant), (above, below)) in amplitudes.iter_mut().zip(constants).zip(rates) {
+                let rate_per_s = above + down * (below - above);
+                let left = exp(-rate_per_s * time_s);
+                *amplitude *= left;
+                *constant *= left;
+            }
+        });
     }
 }
 
