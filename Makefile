@@ -60,7 +60,7 @@ coverage: setup build ## lines that run and bits that move: docs/coverage-*.md
 prove: setup build ## formal proofs, their covers, and designs in which each must fail
 	$(VURIS) prove --spec vuris
 
-study: build ## how often the diagnosis is right: docs/study.md (ten minutes)
+study: build ## how often the diagnosis is right: docs/study.md (half an hour)
 	$(VURIS) study --nulls 200 --repeats 1 --pairs 24 --unknowns 2 --seed 1 --out docs
 
 PROOF := $(or $(CARGO_TARGET_DIR),target)/proof
