@@ -4,7 +4,7 @@ mod diagnosed;
 mod recorded;
 mod rewritten;
 
-use diagnosed::{names, parameter, verdict, vuris};
+use diagnosed::{concealed, names, parameter, simulated, verdict, vuris};
 use recorded::at_hand;
 use rewritten::{Sample, rewrite};
 use serde_json::Value;
@@ -13,13 +13,9 @@ use vuris::physics::EFFECTS;
 
 /// A small campaign with `effects`.
 fn campaign(folder: &Path, name: &str, effects: &[&str], seed: &str) -> PathBuf {
-    let out = folder.join(name);
-    let mut arguments = vec!["simulate", "--size", "10x8", "--seed", seed, "--out", out.to_str().unwrap()];
-    arguments.extend(["--recordings", "four-sweep,four-rail,four-motion,wdft-sweep,wdft-rail,wdft-motion"]);
-    effects.iter().for_each(|effect| arguments.extend(["--effect", effect]));
-    let (good, text) = vuris(&arguments);
-    assert!(good, "{text}");
-    out
+    let recordings = "four-sweep,four-rail,four-motion,wdft-sweep,wdft-rail,wdft-motion";
+    let own = ["--size", "10x8", "--seed", seed, "--recordings", recordings];
+    simulated(folder.join(name), &[&own[..], &concealed(effects)].concat())
 }
 
 #[test]
@@ -132,11 +128,9 @@ fn a_small_error_of_the_encoders_zero_is_named_or_possible() {
 fn the_answer_is_the_same_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let campaign = campaign(folder.path(), "campaign", &["lens_scatter", "clock_jitter"], "5");
-    let stack = folder.path().join("stack");
-    let arguments =
-        ["simulate", "--size", "10x8", "--recordings", "harmonics", "--out", stack.to_str().unwrap()];
-    let (good, text) = vuris(&[&arguments[..], &["--effect", "illumination_droop:relative=0.05"]].concat());
-    assert!(good, "{text}");
+    let options =
+        ["--size", "10x8", "--recordings", "harmonics", "--effect", "illumination_droop:relative=0.05"];
+    let stack = simulated(folder.path().join("stack"), &options);
     let on = |threads: &str, campaign: &Path| {
         let mut command = assert_cmd::Command::cargo_bin("vuris").unwrap();
         command.env("RAYON_NUM_THREADS", threads).args([
@@ -203,17 +197,8 @@ fn a_camera_that_knows_what_was_found_leaves_nothing_to_find() {
     let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
     // The next simulation has it, too.
-    let next = folder.path().join("next");
-    let (good, text) = vuris(&[
-        "simulate",
-        "--camera",
-        camera.to_str().unwrap(),
-        "--out",
-        next.to_str().unwrap(),
-        "--recordings",
-        "four-rail,wdft-motion",
-    ]);
-    assert!(good, "{text}");
+    let options = ["--camera", camera.to_str().unwrap(), "--recordings", "four-rail,wdft-motion"];
+    let next = simulated(folder.path().join("next"), &options);
     assert_eq!(self::verdict(&next)["verdict"], "clean");
 }
 
@@ -396,13 +381,8 @@ fn practice_campaigns_come_out_as_labelled() {
 #[test]
 fn recordings_without_camera_and_positions_are_diagnosed() {
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("sweeps");
-    let out = out.to_str().unwrap();
-    let recordings = ["--recordings", "four-sweep,wdft-sweep"];
-    let (good, text) =
-        vuris(&[&["simulate", "--size", "12x10", "--seed", "3", "--out", out], &recordings[..]].concat());
-    assert!(good, "{text}");
-    let out = Path::new(out);
+    let options = ["--size", "12x10", "--seed", "3", "--recordings", "four-sweep,wdft-sweep"];
+    let out = simulated(folder.path().join("sweeps"), &options);
     std::fs::remove_file(out.join("camera.toml")).unwrap();
     for recording in ["four-sweep", "wdft-sweep"] {
         std::fs::remove_file(out.join(recording).join("mask.npy")).unwrap();
@@ -418,7 +398,7 @@ fn recordings_without_camera_and_positions_are_diagnosed() {
         };
         std::fs::write(&sets, text.lines().enumerate().map(without).collect::<String>()).unwrap();
     }
-    let verdict = verdict(out);
+    let verdict = verdict(&out);
     assert_eq!(names(&verdict), ["correlation_harmonics"], "{verdict:#}");
     assert_eq!(verdict["provenance"]["assumed"]["camera"], true);
     assert_eq!(verdict["provenance"]["assumed"]["still_scene"], true);
@@ -437,11 +417,9 @@ fn recordings_without_camera_and_positions_are_diagnosed() {
 #[test]
 fn files_that_cannot_be_written_are_refused_before_anything_is_done() {
     let folder = tempfile::tempdir().unwrap();
-    let campaign = folder.path().join("campaign");
+    let options = ["--size", "8x6", "--recordings", "four-rail", "--seed", "1"];
+    let campaign = simulated(folder.path().join("campaign"), &options);
     let place = campaign.to_str().unwrap();
-    let (good, text) =
-        vuris(&["simulate", "--size", "8x6", "--recordings", "four-rail", "--seed", "1", "--out", place]);
-    assert!(good, "{text}");
     let path = |name: &str| campaign.join(name).to_str().unwrap().to_owned();
     let (sets, camera) = (path("four-rail/sets.csv"), path("camera.toml"));
     let (same, nowhere) = (path("same"), path("nowhere/a.json"));

@@ -4,7 +4,7 @@
 mod diagnosed;
 mod rewritten;
 
-use diagnosed::{names, parameter, verdict, vuris};
+use diagnosed::{concealed, names, parameter, simulated, verdict};
 use rewritten::{Sample, rewrite};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -13,13 +13,8 @@ use std::path::{Path, PathBuf};
 const SIZE: &str = "12x10";
 
 fn campaign(folder: &Path, size: &str, recordings: &str, effects: &[&str]) -> PathBuf {
-    let out = folder.join("campaign");
-    let mut arguments = vec!["simulate", "--size", size, "--seed", "31", "--out", out.to_str().unwrap()];
-    arguments.extend(["--recordings", recordings]);
-    effects.iter().for_each(|effect| arguments.extend(["--effect", effect]));
-    let (good, text) = vuris(&arguments);
-    assert!(good, "{text}");
-    out
+    let own = ["--size", size, "--seed", "31", "--recordings", recordings];
+    simulated(folder.join("campaign"), &[&own[..], &concealed(effects)].concat())
 }
 
 /// `code` with `more`, which need not be whole, rounded up or down as a chance of the sample's own says.

@@ -4,7 +4,7 @@
 mod diagnosed;
 mod rewritten;
 
-use diagnosed::{names, verdict, vuris};
+use diagnosed::{concealed, names, simulated, verdict};
 use rewritten::{Sample, rewrite};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -18,12 +18,9 @@ type Place = (usize, usize, usize);
 
 /// A campaign with `effects`, to whose codes `noise` is added.
 fn campaign(folder: &Path, name: &str, effects: &[&str], noise: impl Fn(Place, f64) -> f64) -> PathBuf {
-    let out = folder.join(name);
     let size = format!("{WIDTH}x{HEIGHT}");
-    let mut arguments = vec!["simulate", "--out", out.to_str().unwrap(), "--size", &size, "--seed", "31"];
-    effects.iter().for_each(|effect| arguments.extend(["--effect", effect]));
-    let (good, text) = vuris(&arguments);
-    assert!(good, "{text}");
+    let own = ["--size", &size, "--seed", "31"];
+    let out = simulated(folder.join(name), &[&own[..], &concealed(effects)].concat());
     rewrite(&out, |Sample { recording, set, frame, row, column, code }| {
         // No recording has more frames a set, or more sets, than this.
         code + noise(((((recording << 10) + set) << 6) + frame, row, column), code)

@@ -2,24 +2,21 @@
 
 mod diagnosed;
 
-use diagnosed::{names, verdict, vuris};
+use diagnosed::{names, simulated, verdict};
 use serde_json::Value;
 
 /// What is said of a small campaign, simulated with these `options`.
-fn simulated(options: &[&str]) -> Value {
+fn verdict_of(options: &[&str]) -> Value {
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("campaign");
-    let own = ["simulate", "--size", "16x12", "--seed", "7", "--out", out.to_str().unwrap()];
-    let (good, text) = vuris(&[&own[..], options].concat());
-    assert!(good, "{text}");
-    verdict(&out)
+    let own = ["--size", "16x12", "--seed", "7"];
+    verdict(&simulated(folder.path().join("campaign"), &[&own[..], options].concat()))
 }
 
 /// Half of the samples predict the other half, wherever the sets are: at many places, at one, at three with all sets of each in a row.
 #[test]
 fn a_clean_recording_of_any_kind_agrees_with_itself() {
     for kind in ["four-sweep", "four-rail", "wdft-rail", "four-motion", "harmonics"] {
-        let verdict = simulated(&["--recordings", kind]);
+        let verdict = verdict_of(&["--recordings", kind]);
         assert_eq!(verdict["verdict"], "clean", "{kind}: {verdict:#}");
         let [chi2, rms_dn] =
             ["chi2_per_dof_before", "rms_dn_before"].map(|key| verdict["held_out"][key].as_f64().unwrap());
@@ -34,7 +31,7 @@ fn at_one_place_what_changes_the_light_is_named() {
     for ratio in ["1.25", "2.2", "3"] {
         for effect in ["illumination_droop", "illumination_drift", "frame_gain"] {
             let verdict =
-                simulated(&["--recordings", "four-sweep", "--constant-ratio", ratio, "--effect", effect]);
+                verdict_of(&["--recordings", "four-sweep", "--constant-ratio", ratio, "--effect", effect]);
             assert_eq!(names(&verdict), [effect], "{ratio}: {verdict:#}");
         }
     }

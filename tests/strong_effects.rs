@@ -2,7 +2,7 @@
 
 mod diagnosed;
 
-use diagnosed::{names, vuris};
+use diagnosed::{names, simulated};
 use serde_json::Value;
 use std::path::Path;
 
@@ -10,11 +10,10 @@ const CAMERA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/paper-benc
 
 /// What is said of these recordings, simulated with `options`.
 fn verdict(folder: &Path, recordings: &str, options: &[&str]) -> Value {
-    let out = folder.join("campaign");
-    let own = ["simulate", "--out", out.to_str().unwrap(), "--recordings", recordings];
-    let (good, text) = vuris(&[&own, options].concat());
-    assert!(good, "{text}");
-    diagnosed::verdict(&out)
+    diagnosed::verdict(&simulated(
+        folder.join("campaign"),
+        &[&["--recordings", recordings], options].concat(),
+    ))
 }
 
 /// Twelve sets of 64 frames by a response of the power 2.2: many numbers of other effects explain most of it, one explains all.
@@ -28,6 +27,30 @@ fn a_response_that_is_a_power_is_named_by_its_exponent() {
     let row = &verdict["effects"][0]["parameters"][0];
     let [exponent, sigma] = ["value", "sigma"].map(|key| row[key].as_f64().unwrap());
     assert!((exponent - 1.2).abs() < 4.0 * sigma, "{exponent} +- {sigma}");
+}
+
+/// A third of the ambient light flickers at just the pace at which the frames of a rail see it: its frequency is an extremum, and the first step of a fit halfway.
+#[test]
+fn a_strong_flicker_at_the_frames_own_pace_is_named_on_a_rail_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let effect = ["--size", "12x9", "--effect", "ambient_flicker:cosine=0.23,sine=0.23"];
+    let verdict = verdict(folder.path(), "four-rail", &effect);
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
+    let row = &verdict["effects"][0]["parameters"][0];
+    let [cosine, sigma] = ["value", "sigma"].map(|key| row[key].as_f64().unwrap());
+    // Of the share of the ambient light, of which the target's pixels know little, besides.
+    assert!((cosine - 0.23).abs() < 4.0 * sigma.max(0.0025), "{cosine} +- {sigma}");
+}
+
+/// A response that is a power and a polynomial, of nine per cent at full scale together: neither alone says it, nor does a wave of the converter.
+#[test]
+fn a_response_that_is_neither_a_power_nor_a_polynomial_is_a_response() {
+    let folder = tempfile::tempdir().unwrap();
+    let response = "intensity_nonlinearity:quadratic=0.035,cubic=0.035,exponent=0.035";
+    let verdict = verdict(folder.path(), "four-motion,wdft-rail", &["--size", "16x12", "--effect", response]);
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    assert_eq!(names(&verdict), ["intensity_nonlinearity"], "{verdict:#}");
 }
 
 /// The light's falloff within a set, at 2 m/s, explains hundreds of times what errors of single phase steps do: both are named.

@@ -8,6 +8,7 @@ use super::noise::Noise;
 use super::pieces::Piece;
 use super::settling::{moved, settled};
 use super::start::linear;
+use super::stride::{Stride, bounded_step, is_shape};
 use super::watchdog::{ENOUGH, descend};
 use crate::physics::Pixels;
 use nalgebra::{DMatrix, DVector};
@@ -68,9 +69,8 @@ pub fn beside(data: &Data, pieces: &[Piece], noise: Noise) -> Arc<Pixels> {
 
 /// Iterations of Gauss and Newton at most: the pixels' own numbers start close, a response that is far from linear does not.
 const ITERATIONS: usize = 12;
-/// A step that makes the sum of squares so many times greater is damped (Levenberg 1944, Marquardt 1963).
+/// A step that makes the sum of squares so many times greater is not taken: another [stride](Stride) is.
 const WORSE: f64 = 1.01;
-const DAMPINGS: [f64; 4] = [0.0, 1e-2, 0.3, 10.0];
 /// A step that promises to take away so much is not refused before the pixels have settled.
 const UNSETTLED: f64 = 100.0;
 /// Near the noise all steps that are still to come are taken to lower chi squared by so many times what the next one promises at most.
@@ -197,8 +197,11 @@ impl Model {
         noise: Noise,
         counts: &(dyn Fn(usize) -> bool + Sync),
     ) -> Option<Self> {
-        DAMPINGS.into_iter().find_map(|damping| {
-            let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), damping);
+        // What has no shape has no other step with it held.
+        let is_another =
+            |stride: &Stride| *stride != Stride::ShapesHeld || self.round.has_shapes(&self.pieces);
+        Stride::ALL.into_iter().filter(is_another).find_map(|stride| {
+            let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), stride);
             let settle = |pixels: &Arc<Pixels>| {
                 settled(data, pixels, Some(&self.pixels), SETTLINGS, &pieces, noise, counts)
             };
@@ -244,7 +247,11 @@ pub fn improved(
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> (Arc<Pixels>, Vec<Piece>) {
-    Round::new(data, &fit.pixels, &fit.pieces, noise, counts).step(&fit.pixels, fit.pieces.clone(), 0.0)
+    Round::new(data, &fit.pixels, &fit.pieces, noise, counts).step(
+        &fit.pixels,
+        fit.pieces.clone(),
+        Stride::Whole,
+    )
 }
 
 /// The normal equations around a model, solved.
@@ -275,7 +282,8 @@ impl Round {
         let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
         let (gram, series) = Gram::visited(data, &tangents, noise, counts, &visit, &Series::and);
         let projected = gram.project(None);
-        let (theta, covariance) = bounded_step(&projected, &columns, pieces, pixels.full_scale_dn, 0.0);
+        let (theta, covariance) =
+            bounded_step(&projected, &columns, pieces, pixels.full_scale_dn, Stride::Whole);
         let gain = projected.settled + theta.dot(&projected.vector);
         let Gram { chi2: square, beyond, samples, .. } = gram;
         Self { columns, projected, theta, covariance, gain, square, beyond, samples, series }
@@ -300,11 +308,14 @@ impl Round {
         0.5 * (self.left() - HOPE * self.gain - self.beyond) + self.columns.len() as f64
     }
 
-    /// `pixels` and `pieces`, moved by the step with so much `damping`.
-    fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>, damping: f64) -> (Arc<Pixels>, Vec<Piece>) {
-        let damped =
-            || bounded_step(&self.projected, &self.columns, &pieces, pixels.full_scale_dn, damping).0;
-        let theta = if damping > 0.0 { damped() } else { self.theta.clone() };
+    fn has_shapes(&self, pieces: &[Piece]) -> bool {
+        self.columns.iter().any(|column| is_shape(column, pieces))
+    }
+
+    /// `pixels` and `pieces`, moved by the `stride`.
+    fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>, stride: Stride) -> (Arc<Pixels>, Vec<Piece>) {
+        let other = || bounded_step(&self.projected, &self.columns, &pieces, pixels.full_scale_dn, stride).0;
+        let theta = if stride == Stride::Whole { self.theta.clone() } else { other() };
         let pixels = Arc::new(moved(pixels, &self.projected.own(&theta), 1.0));
         for (column, step) in self.columns.iter().zip(theta.iter()) {
             let piece = &mut pieces[column.piece];
@@ -331,57 +342,4 @@ fn free_shapes(pieces: &mut [Piece]) {
             }
         }
     }
-}
-
-/// How far the number of each column may go.
-fn reaches(columns: &[Column], pieces: &[Piece], full_scale_dn: f64) -> Vec<f64> {
-    let parameter = |column: &Column| &pieces[column.piece].effect.parameters[column.parameter];
-    columns.iter().map(|column| parameter(column).reach(full_scale_dn)).collect()
-}
-
-/// The step to the minimum for numbers that stay within their bounds: one that is at a bound and would go beyond stays where it is. And the covariance
-/// there, of all: that a number is held does not make the others better known beside it than they are (a bound does a little: this is the safe side).
-fn bounded_step(
-    projected: &Projected,
-    columns: &[Column],
-    pieces: &[Piece],
-    full_scale_dn: f64,
-    damping: f64,
-) -> (DVector<f64>, DMatrix<f64>) {
-    let mut reach = reaches(columns, pieces, full_scale_dn);
-    let (mut theta, covariance) = step(projected, &reach, damping);
-    loop {
-        let goes_beyond = |number: &usize| {
-            let piece = &pieces[columns[*number].piece];
-            let parameter = columns[*number].parameter;
-            let (low, high) = piece.bounds_within(parameter, full_scale_dn);
-            let (value, step) = (piece.values[parameter], theta[*number]);
-            reach[*number] > 0.0 && (step < 0.0 && value <= low || step > 0.0 && value >= high)
-        };
-        let Some(held) = (0..columns.len()).find(goes_beyond) else { return (theta, covariance) };
-        reach[held] = 0.0;
-        theta = step(projected, &reach, damping).0;
-    }
-}
-
-/// The step to the minimum, and the covariance there. That no number goes beyond its `reach` is known beforehand; one without any
-/// stays where it is.
-fn step(projected: &Projected, reach: &[f64], damping: f64) -> (DVector<f64>, DMatrix<f64>) {
-    let size = projected.vector.len();
-    if size == 0 {
-        return (DVector::zeros(0), DMatrix::zeros(0, 0));
-    }
-    let known = |c: usize| projected.matrix[(c, c)].max(0.0) + reach[c].powi(-2);
-    let scale = DVector::from_fn(size, |c, _| if reach[c] > 0.0 { known(c).sqrt().recip() } else { 0.0 });
-    let scaled = DMatrix::from_fn(size, size, |row, column| {
-        let value =
-            if row == column { (1.0 + damping) * known(row) } else { projected.matrix[(row, column)] };
-        if reach[row] > 0.0 && reach[column] > 0.0 { value * scale[row] * scale[column] } else { 0.0 }
-    });
-    let eigen = scaled.symmetric_eigen();
-    let kept = eigen.eigenvalues.map(|value| if value > 1e-6 { value.recip() } else { 0.0 });
-    let inverse = &eigen.eigenvectors * DMatrix::from_diagonal(&kept) * eigen.eigenvectors.transpose();
-    let theta = (&inverse * projected.vector.component_mul(&scale)).component_mul(&scale);
-    let covariance = DMatrix::from_fn(size, size, |r, c| inverse[(r, c)] * scale[r] * scale[c]);
-    (theta, covariance)
 }

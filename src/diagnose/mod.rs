@@ -73,6 +73,7 @@ mod source;
 mod start;
 mod steady;
 mod steps;
+mod stride;
 mod swings;
 mod tamed;
 mod together;

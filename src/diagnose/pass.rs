@@ -2,6 +2,7 @@
 
 use super::alone::Alone;
 use super::columns::Tangents;
+use super::completed::NEEDED_NATS;
 use super::data::Data;
 use super::evidence::{Block, Evidence, Model};
 use super::fit::Fit;
@@ -158,14 +159,28 @@ impl Pass {
             if !ways.contains_key(&candidate(block)) && ways.len() == most {
                 return false;
             }
+            // One that says all that others do goes with them, and takes the place of none.
+            let is_whole = self.says_another(block);
             let ways = ways.entry(candidate(block)).or_default();
-            *ways += 1;
-            *ways <= 2
+            *ways += usize::from(!is_whole);
+            is_whole || *ways <= 2
         });
         leaders.truncate(if is_far { leaders.len() } else { most });
         let leads = |&block: &usize| leaders.iter().any(|&leader| candidate(leader) == candidate(block));
         let others = best.blocks.iter().copied().filter(|block| !is_far && !leads(block)).collect();
         (leaders.len() > 1).then_some((leaders, others))
+    }
+
+    /// Whether a block has all columns of another way of its candidate, and more.
+    fn says_another(&self, block: usize) -> bool {
+        let Block { candidate, columns, .. } = &self.blocks[block];
+        let is_part = |other: &Block| {
+            other.candidate == *candidate
+                && other.columns.len() < columns.len()
+                && !other.columns.is_empty()
+                && other.columns.iter().all(|column| columns.contains(column))
+        };
+        self.blocks.iter().any(is_part)
     }
 
     /// What the effect `name` explains besides chance, in the way in which that is most, chi squared.
@@ -213,8 +228,22 @@ impl Pass {
             place == 0 || may_stand_for(fit, best) && is_as_good()
         };
         let believed = (0..judged.len()).filter(is_believed);
-        let simplest = believed.min_by_key(|&place| judged[place].2.columns.len());
-        let (ln_bayes, block, fit) = judged.remove(simplest.unwrap_or(0));
+        let simplest = believed.min_by_key(|&place| judged[place].2.columns.len()).unwrap_or(0);
+        // Of two forms of an effect both at once only where one alone is not enough.
+        let (_, whole, of_both) = &judged[simplest];
+        let is_enough = |&place: &usize| {
+            let (_, block, fit) = &judged[place];
+            let more = of_both.columns.len().saturating_sub(fit.columns.len());
+            let is_same = self.blocks[*block].candidate == self.blocks[*whole].candidate;
+            is_same && more > 0 && 0.5 * (fit.left() - of_both.left()) < NEEDED_NATS + more as f64
+        };
+        let name = self.name(*whole, candidates);
+        let is_both =
+            of_both.pieces.iter().any(|piece| piece.effect.name == name && piece.is_of_both_forms());
+        let cost = |place: usize| judged[place].2.cost();
+        let enough = (0..judged.len()).filter(|place| is_both && is_enough(place));
+        let enough = enough.min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
+        let (ln_bayes, block, fit) = judged.remove(enough.unwrap_or(simplest));
         // What its form may leave does not tell it from others either, nor what theirs may.
         let own = tolerance(self.name(block, candidates));
         let is_near = |(nats, other, _): &&(f64, usize, Fit)| {

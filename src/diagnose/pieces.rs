@@ -38,6 +38,15 @@ impl Piece {
         self.free.iter().filter(|&&number| self.effect.parameters[number].is_shape()).count()
     }
 
+    /// Whether it has numbers of both of two forms.
+    pub fn is_of_both_forms(&self) -> bool {
+        let has = |instead: bool| {
+            let parameters = self.free.iter().map(|&number| &self.effect.parameters[number]);
+            parameters.filter(|parameter| !parameter.is_shape()).any(|p| p.is_instead == instead)
+        };
+        has(true) && has(false)
+    }
+
     /// Least and greatest value of its parameter `number` where signals go up to `full_scale_dn`: together with what the camera includes it is within the
     /// parameter's bounds.
     pub fn bounds_within(&self, number: usize, full_scale_dn: f64) -> (f64, f64) {
@@ -140,6 +149,9 @@ const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0
 /// A converter's error of which the recordings do not see a whole period is smooth: what they see of it is a response, too, and so many smooth
 /// curves are the response's for one of a converter.
 const SMOOTH: (&str, f64) = ("adc_nonlinearity", 10.0);
+
+/// What has parameters instead of others has one form or the other; these may be of both at once. A response may be neither a polynomial nor a power.
+const OF_BOTH_FORMS: [&str; 1] = ["intensity_nonlinearity"];
 
 /// Before anything is seen: effects that are so many times less likely than others, where the camera is described. A bench is measured, once, and where its zero
 /// is off by millimetres that is a mistake; light that comes another way, which amplitudes may take for that, every bench has.
@@ -286,7 +298,10 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         let groupings = if is_shared { &[Grouping::All][..] } else { &groupings[..] };
         let strengths =
             if is_shared { strengths.get(..chosen as usize).unwrap_or(&strengths) } else { &strengths[..] };
-        for strengths in [strengths, &instead[..]].into_iter().filter(|strengths| !strengths.is_empty()) {
+        let is_of_both = OF_BOTH_FORMS.contains(&effect.name);
+        let both = if is_of_both { [strengths, &instead[..]].concat() } else { Vec::new() };
+        let forms = [strengths, &instead[..], &both[..]].into_iter().filter(|form| !form.is_empty());
+        for strengths in forms {
             let rarity = if value > seen_dn { SMOOTH.1 } else { usual };
             let of =
                 |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data), rarity };

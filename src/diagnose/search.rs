@@ -285,8 +285,8 @@ impl<'a> Search<'a> {
                     pieces: pieces(&[&[block], others].concat()),
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
-                let fit = |entrant: Entrant| (entrant.block, fitted(entrant.pieces));
-                let fits: Vec<(usize, Fit)> = entrants.into_par_iter().map(fit).collect();
+                let fitted_entrant = |entrant: Entrant| (entrant.block, fitted(entrant.pieces));
+                let fits: Vec<(usize, Fit)> = entrants.into_par_iter().map(fitted_entrant).collect();
                 let more = |fit: &Fit| fit.columns.len().saturating_sub(current.columns.len());
                 // Nor is a form exact beside what nobody described: what says the same by much fewer numbers is believed.
                 let is_simpler = |fit: &Fit, best: &Fit| {

@@ -2,13 +2,27 @@
 
 use assert_cmd::Command;
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Whether `vuris` succeeds with these arguments, and all that it says.
 pub fn vuris(arguments: &[&str]) -> (bool, String) {
     let output = Command::cargo_bin("vuris").unwrap().args(arguments).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
     (output.status.success(), text.into_owned())
+}
+
+/// A campaign, simulated into `folder` with these `options`. Some have theirs from elsewhere.
+#[allow(dead_code)]
+pub fn simulated(folder: PathBuf, options: &[&str]) -> PathBuf {
+    let (good, text) = vuris(&[&["simulate", "--out", folder.to_str().unwrap()], options].concat());
+    assert!(good, "{text}");
+    folder
+}
+
+/// The options of `effects` that are concealed.
+#[allow(dead_code)]
+pub fn concealed<'a>(effects: &[&'a str]) -> Vec<&'a str> {
+    effects.iter().flat_map(|effect| ["--effect", effect]).collect()
 }
 
 /// What is said of `campaign`.
