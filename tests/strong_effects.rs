@@ -2,7 +2,7 @@
 
 mod diagnosed;
 
-use diagnosed::{names, simulated};
+use diagnosed::{names, parameter, simulated};
 use serde_json::Value;
 use std::path::Path;
 
@@ -37,10 +37,10 @@ fn a_strong_flicker_at_the_frames_own_pace_is_named_on_a_rail_alone() {
     let verdict = verdict(folder.path(), "four-rail", &effect);
     assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
     assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
-    let row = &verdict["effects"][0]["parameters"][0];
-    let [cosine, sigma] = ["value", "sigma"].map(|key| row[key].as_f64().unwrap());
-    // Of the share of the ambient light, of which the target's pixels know little, besides.
-    assert!((cosine - 0.23).abs() < 4.0 * sigma.max(0.0025), "{cosine} +- {sigma}");
+    let [cosine, hz] = ["cosine", "frequency_hz"].map(|name| parameter(&verdict, name));
+    // A hundredth of the ambient light, of which the target's pixels know little, besides.
+    assert!((cosine.0 - 0.23).abs() < 4.0 * cosine.1.max(0.0025), "{cosine:?}");
+    assert!((hz.0 - 100.0).abs() < 4.0 * hz.1 && hz.1 < 0.02, "{hz:?}");
 }
 
 /// A response that is a power and a polynomial, of nine per cent at full scale together: neither alone says it, nor does a wave of the converter.
@@ -51,6 +51,26 @@ fn a_response_that_is_neither_a_power_nor_a_polynomial_is_a_response() {
     let verdict = verdict(folder.path(), "four-motion,wdft-rail", &["--size", "16x12", "--effect", response]);
     assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
     assert_eq!(names(&verdict), ["intensity_nonlinearity"], "{verdict:#}");
+    assert_eq!(numbers(&verdict), 3, "{verdict:#}");
+}
+
+/// One form alone is all that a response needs that has that form.
+#[test]
+fn a_response_of_one_form_is_named_by_that() {
+    for (response, expected) in [("exponent=0.05", 1), ("quadratic=0.06,cubic=0.03", 2)] {
+        let folder = tempfile::tempdir().unwrap();
+        let response = format!("intensity_nonlinearity:{response}");
+        let options = ["--size", "16x12", "--effect", &response];
+        let verdict = verdict(folder.path(), "four-motion,wdft-rail", &options);
+        assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+        assert_eq!(names(&verdict), ["intensity_nonlinearity"], "{verdict:#}");
+        assert_eq!(numbers(&verdict), expected, "{verdict:#}");
+    }
+}
+
+/// How many numbers the first effect has.
+fn numbers(verdict: &Value) -> usize {
+    verdict["effects"][0]["parameters"].as_array().unwrap().len()
 }
 
 /// The light's falloff within a set, at 2 m/s, explains hundreds of times what errors of single phase steps do: both are named.

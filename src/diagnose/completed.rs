@@ -30,7 +30,8 @@ impl Completed {
             let parameters = piece.effect.parameters;
             let instead = piece.free.iter().filter(|&&number| parameters[number].is_instead).count();
             let others = parameters.iter().filter(|p| !p.is_instead && !p.is_shape()).count();
-            if 0 < instead && instead < others {
+            let is_one_of_both = piece.may_be_of_both_forms() && !piece.is_of_both_forms();
+            if is_one_of_both || 0 < instead && instead < others {
                 piece.free = (0..parameters.len()).filter(|&number| !parameters[number].is_choice).collect();
             }
         }

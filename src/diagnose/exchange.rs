@@ -67,7 +67,9 @@ fn simpler(first: &Pass, candidates: &[Candidate], named: &[Named], number: usiz
     let is_simpler = |&block: &usize| {
         let (chi2, degrees) = score(block);
         let name = first.name(block, candidates);
-        degrees < numbers && chi2 > SIMPLER_SHARE * own && named.iter().all(|named| named.name != name)
+        // Both of two forms at once are no simpler than one.
+        let is_simple = degrees < numbers && !first.is_of_both_forms(block);
+        is_simple && chi2 > SIMPLER_SHARE * own && named.iter().all(|named| named.name != name)
     };
     let mut simpler: Vec<usize> = blocks.filter(is_simpler).collect();
     simpler.sort_by(|&a, &b| score(b).0.total_cmp(&score(a).0));

@@ -188,7 +188,7 @@ struct Model {
 }
 
 impl Model {
-    /// After the first step, of the whole one and damped ones, that does not lead uphill, or, where it `may_climb`, not far; nothing where there is none, or
+    /// After the first step, of the whole one, damped ones and the one with shapes held, that does not lead uphill, or, where it `may_climb`, not far; nothing where there is none, or
     /// none is worth it.
     fn stepped(
         &self,
@@ -220,6 +220,8 @@ impl Model {
                 round = Round::new(data, &pixels, &pieces, noise, counts);
                 is_taken = takes(&round);
             }
+            // Where the strengths are as they fit best beside the shapes, that is no step.
+            is_taken &= stride != Stride::ShapesHeld || round.left() + ENOUGH < self.round.left();
             let is_slow = round.loss() > (1.0 - SLOW) * self.round.loss();
             let is_stuck = is_slow && round.is_far();
             let came_down = round.left() <= self.round.left();

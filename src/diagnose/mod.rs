@@ -23,6 +23,7 @@ mod evidence;
 mod exchange;
 mod finished;
 mod fit;
+mod fittest;
 mod gaps;
 mod gram;
 mod grid;

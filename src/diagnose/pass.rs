@@ -2,7 +2,6 @@
 
 use super::alone::Alone;
 use super::columns::Tangents;
-use super::completed::NEEDED_NATS;
 use super::data::Data;
 use super::evidence::{Block, Evidence, Model};
 use super::fit::Fit;
@@ -33,8 +32,6 @@ const FAR_SHARE: f64 = 0.25;
 const MOST_FAR_LEADERS: usize = 6;
 /// Beyond so much evidence (nats) the tangents at the baseline need not hold at the fit.
 const STRONG_NATS: f64 = 30.0;
-/// A shape that was fitted explains something by chance, too.
-const SHAPE_NATS: f64 = 1.0;
 /// A form may leave so many times its tolerance before it is not believed.
 pub const DISBELIEF: f64 = 3.0;
 /// Less evidence than this (nats) asserts nothing.
@@ -56,9 +53,11 @@ pub struct Pass {
     /// Smallest strengths that would be seen in 95 of 100 recordings alike.
     pub detectable: Vec<Detectable>,
     /// Evidence of each block alone, nats.
-    singles: Vec<f64>,
+    pub singles: Vec<f64>,
     /// What simpler methods name.
     pub simpler: Simpler,
+    /// Blocks whose effect is there in both of two forms.
+    of_both_forms: Vec<bool>,
 }
 
 impl Pass {
@@ -108,7 +107,10 @@ impl Pass {
             inflation <= 1.0 || of_name(inflation, model.ln_bayes, score) > THRESHOLD
         };
         let models = evidence.models().into_iter().filter(stands).collect();
-        Self { simpler, models, scores, invisible, detectable, singles, blocks }
+        let pieces = |block: &Block| &candidates[block.candidate].variants[block.variant].pieces;
+        let of_both = |block| pieces(block).iter().any(Piece::is_of_both_forms);
+        let of_both_forms = blocks.iter().map(of_both).collect();
+        Self { simpler, models, scores, invisible, detectable, singles, blocks, of_both_forms }
     }
 
     /// The effect of a block.
@@ -159,28 +161,25 @@ impl Pass {
             if !ways.contains_key(&candidate(block)) && ways.len() == most {
                 return false;
             }
-            // One that says all that others do goes with them, and takes the place of none.
-            let is_whole = self.says_another(block);
             let ways = ways.entry(candidate(block)).or_default();
-            *ways += usize::from(!is_whole);
-            is_whole || *ways <= 2
+            *ways += usize::from(!self.is_of_both_forms(block));
+            self.is_of_both_forms(block) || *ways <= 2
         });
-        leaders.truncate(if is_far { leaders.len() } else { most });
+        // What has both of two forms goes with these, and takes the place of none.
+        let mut places = if is_far { leaders.len() } else { most };
+        leaders.retain(|&block| {
+            let (has_place, is_counted) = (places > 0, !self.is_of_both_forms(block));
+            places -= usize::from(has_place && is_counted);
+            has_place
+        });
         let leads = |&block: &usize| leaders.iter().any(|&leader| candidate(leader) == candidate(block));
         let others = best.blocks.iter().copied().filter(|block| !is_far && !leads(block)).collect();
         (leaders.len() > 1).then_some((leaders, others))
     }
 
-    /// Whether a block has all columns of another way of its candidate, and more.
-    fn says_another(&self, block: usize) -> bool {
-        let Block { candidate, columns, .. } = &self.blocks[block];
-        let is_part = |other: &Block| {
-            other.candidate == *candidate
-                && other.columns.len() < columns.len()
-                && !other.columns.is_empty()
-                && other.columns.iter().all(|column| columns.contains(column))
-        };
-        self.blocks.iter().any(is_part)
+    /// Whether the effect of a block is there in both of two forms.
+    pub fn is_of_both_forms(&self, block: usize) -> bool {
+        self.of_both_forms.get(block).is_some_and(|of_both| *of_both)
     }
 
     /// What the effect `name` explains besides chance, in the way in which that is most, chi squared.
@@ -188,71 +187,6 @@ impl Pass {
         let of = (0..self.blocks.len()).filter(|&block| self.name(block, candidates) == name);
         let excess = of.filter_map(|block| self.scores[block]).map(|(chi2, degrees)| chi2 - degrees as f64);
         excess.fold(0.0, f64::max)
-    }
-
-    /// Evidence of a block of the effect `name` by its `fit` to data whose chi squared was `before`, nats.
-    pub fn fitted_ln_bayes(&self, block: usize, name: &str, before: f64, fit: &Fit) -> f64 {
-        let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);
-        let own = fit.pieces.iter().filter(|piece| piece.effect.name == name);
-        let by_chance = SHAPE_NATS * own.map(Piece::shapes).sum::<usize>() as f64;
-        self.singles[block] + 0.5 * (before - fit.chi2 - fit.unreached - score) - by_chance
-    }
-
-    /// Of blocks and their fits, to data of which `before` was the fit: the best one, with its fit, and the effects that come as near as
-    /// its form can be trusted; nothing where there are none. Where another fit `may_stand_for` the best one, as simpler, and explains about as much, it is taken.
-    pub fn fittest(
-        &self,
-        before: &Fit,
-        fits: Vec<(usize, Fit)>,
-        candidates: &[Candidate],
-        may_stand_for: &dyn Fn(&Fit, &Fit) -> bool,
-    ) -> Option<(Model, Fit, Vec<String>)> {
-        // Of residuals as they count, and of all that they have beyond.
-        let explained =
-            |fit: &Fit| [before.counted() - fit.counted() - fit.unreached, before.chi2 - fit.left()];
-        let judged = |(block, fit): (usize, Fit)| {
-            (self.fitted_ln_bayes(block, self.name(block, candidates), before.chi2, &fit), block, fit)
-        };
-        let mut judged: Vec<(f64, usize, Fit)> = fits.into_iter().map(judged).collect();
-        // A model that is no number anywhere fits nothing.
-        judged.retain(|fitted| fitted.0.is_finite());
-        judged.sort_by(|a, b| b.0.total_cmp(&a.0));
-        // Where no form is exact: of those that explain about as much as the best one, the simplest.
-        let best = &judged.first()?.2;
-        let most = explained(best);
-        let is_believed = |&place: &usize| {
-            let (_, block, fit) = &judged[place];
-            let left = DISBELIEF * tolerance(self.name(*block, candidates));
-            let is_as_good =
-                || explained(fit).iter().zip(most).all(|(explained, most)| *explained > (1.0 - left) * most);
-            place == 0 || may_stand_for(fit, best) && is_as_good()
-        };
-        let believed = (0..judged.len()).filter(is_believed);
-        let simplest = believed.min_by_key(|&place| judged[place].2.columns.len()).unwrap_or(0);
-        // Of two forms of an effect both at once only where one alone is not enough.
-        let (_, whole, of_both) = &judged[simplest];
-        let is_enough = |&place: &usize| {
-            let (_, block, fit) = &judged[place];
-            let more = of_both.columns.len().saturating_sub(fit.columns.len());
-            let is_same = self.blocks[*block].candidate == self.blocks[*whole].candidate;
-            is_same && more > 0 && 0.5 * (fit.left() - of_both.left()) < NEEDED_NATS + more as f64
-        };
-        let name = self.name(*whole, candidates);
-        let is_both =
-            of_both.pieces.iter().any(|piece| piece.effect.name == name && piece.is_of_both_forms());
-        let cost = |place: usize| judged[place].2.cost();
-        let enough = (0..judged.len()).filter(|place| is_both && is_enough(place));
-        let enough = enough.min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
-        let (ln_bayes, block, fit) = judged.remove(enough.unwrap_or(simplest));
-        // What its form may leave does not tell it from others either, nor what theirs may.
-        let own = tolerance(self.name(block, candidates));
-        let is_near = |(nats, other, _): &&(f64, usize, Fit)| {
-            let form = own.max(tolerance(self.name(*other, candidates)));
-            *nats > ln_bayes - (0.5 * form * (before.counted() - fit.counted())).max(RIVAL_NATS)
-        };
-        let near =
-            judged.iter().filter(is_near).map(|other| self.name(other.1, candidates).to_owned()).collect();
-        Some((Model { blocks: vec![block], ln_bayes }, fit, near))
     }
 
     /// Of a clear single effect: others that explain as much by no more numbers, but for what its form or theirs may leave.
@@ -393,5 +327,18 @@ mod tests {
         let leading: Vec<usize> = (0..18).filter(|n| n % 3 < 2).collect();
         assert_eq!(of.leaders(&model(&[0, 23]), true), Some((leading, vec![])));
         assert_eq!(of.leaders(&model(&[0, 23]), false), Some((vec![0, 1, 3, 4, 6], vec![23])));
+    }
+
+    #[test]
+    fn what_has_both_of_two_forms_takes_the_place_of_none() {
+        // Both forms at once, one and the other, and a third way, which stays behind; then other effects.
+        let mut of = pass(&[(0, 1004.0, 3), (0, 1003.0, 2), (0, 1002.0, 1), (0, 1001.0, 1)]);
+        of.of_both_forms = vec![true];
+        assert_eq!(of.leaders(&model(&[0]), true), Some((vec![0, 1, 2], vec![])));
+        let more: Vec<_> = (0..9).map(|n| (n.max(2) - 2, 1000.0 - n as f64, 1)).collect();
+        let mut of = pass(&more);
+        assert_eq!(of.leaders(&model(&[0]), false).unwrap().0, [0, 1, 3, 4, 5]);
+        of.of_both_forms = vec![true];
+        assert_eq!(of.leaders(&model(&[0]), false).unwrap().0, [0, 1, 2, 3, 4, 5]);
     }
 }

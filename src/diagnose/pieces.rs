@@ -38,6 +38,11 @@ impl Piece {
         self.free.iter().filter(|&&number| self.effect.parameters[number].is_shape()).count()
     }
 
+    /// Whether its effect may be there in both of two forms at once.
+    pub fn may_be_of_both_forms(&self) -> bool {
+        OF_BOTH_FORMS.contains(&self.effect.name)
+    }
+
     /// Whether it has numbers of both of two forms.
     pub fn is_of_both_forms(&self) -> bool {
         let has = |instead: bool| {
@@ -245,7 +250,10 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             }
             // A line is one of many frequencies that were looked at, whichever of them are tried.
             let of_line = |line: Found| line.looked / line.shapes.len() as f64;
-            let looked = variants.len() as f64 * line.map_or(1.0, of_line);
+            // Both of two forms at once are no further place to look at.
+            let is_of_both = |variant: &&Variant| variant.pieces.iter().any(Piece::is_of_both_forms);
+            let looked = variants.len() - variants.iter().filter(is_of_both).count();
+            let looked = looked as f64 * line.map_or(1.0, of_line);
             Candidate { effect, looked, variants }
         })
         .collect()
@@ -298,8 +306,11 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         let groupings = if is_shared { &[Grouping::All][..] } else { &groupings[..] };
         let strengths =
             if is_shared { strengths.get(..chosen as usize).unwrap_or(&strengths) } else { &strengths[..] };
-        let is_of_both = OF_BOTH_FORMS.contains(&effect.name);
-        let both = if is_of_both { [strengths, &instead[..]].concat() } else { Vec::new() };
+        let both = if OF_BOTH_FORMS.contains(&effect.name) {
+            [strengths, &instead[..]].concat()
+        } else {
+            Vec::new()
+        };
         let forms = [strengths, &instead[..], &both[..]].into_iter().filter(|form| !form.is_empty());
         for strengths in forms {
             let rarity = if value > seen_dn { SMOOTH.1 } else { usual };

@@ -18,7 +18,7 @@ pub enum Stride {
 }
 
 impl Stride {
-    /// One after the other, until one leads downhill (Levenberg 1944, Marquardt 1963).
+    /// One after the other, until one is taken (Levenberg 1944, Marquardt 1963).
     pub const ALL: [Self; 5] =
         [Self::Whole, Self::Damped(1e-2), Self::Damped(0.3), Self::Damped(10.0), Self::ShapesHeld];
 }

@@ -1,0 +1,86 @@
+//! Of several fits the one that is believed.
+
+use super::bounds::is_bounded;
+use super::completed::NEEDED_NATS;
+use super::evidence::Model;
+use super::fit::Fit;
+use super::pass::{DISBELIEF, Pass, RIVAL_NATS};
+use super::pieces::{Candidate, Piece, tolerance};
+
+/// A shape that was fitted explains something by chance, too.
+const SHAPE_NATS: f64 = 1.0;
+
+impl Pass {
+    /// Evidence of a block of the effect `name` by its `fit` to data whose chi squared was `before`, nats.
+    pub fn fitted_ln_bayes(&self, block: usize, name: &str, before: f64, fit: &Fit) -> f64 {
+        let score = self.scores[block].map_or(0.0, |(chi2, _)| chi2);
+        let own = fit.pieces.iter().filter(|piece| piece.effect.name == name);
+        let by_chance = SHAPE_NATS * own.map(Piece::shapes).sum::<usize>() as f64;
+        self.singles[block] + 0.5 * (before - fit.chi2 - fit.unreached - score) - by_chance
+    }
+
+    /// Of blocks and their fits, to data of which `before` was the fit: the best one, with its fit, and the effects that come as near as
+    /// its form can be trusted; nothing where there are none. Where another fit `may_stand_for` the best one, as simpler, and explains about as much, it is taken.
+    pub fn fittest(
+        &self,
+        before: &Fit,
+        fits: Vec<(usize, Fit)>,
+        candidates: &[Candidate],
+        may_stand_for: &dyn Fn(&Fit, &Fit) -> bool,
+    ) -> Option<(Model, Fit, Vec<String>)> {
+        // Of residuals as they count, and of all that they have beyond.
+        let explained =
+            |fit: &Fit| [before.counted() - fit.counted() - fit.unreached, before.chi2 - fit.left()];
+        let judged = |(block, fit): (usize, Fit)| {
+            (self.fitted_ln_bayes(block, self.name(block, candidates), before.chi2, &fit), block, fit)
+        };
+        let mut judged: Vec<(f64, usize, Fit)> = fits.into_iter().map(judged).collect();
+        // A model that is no number anywhere fits nothing.
+        judged.retain(|fitted| fitted.0.is_finite());
+        judged.sort_by(|a, b| b.0.total_cmp(&a.0));
+        // Where no form is exact: of those that explain about as much as the best one, the simplest.
+        let best = &judged.first()?.2;
+        let most = explained(best);
+        let is_believed = |&place: &usize| {
+            let (_, block, fit) = &judged[place];
+            let left = DISBELIEF * tolerance(self.name(*block, candidates));
+            let is_as_good =
+                || explained(fit).iter().zip(most).all(|(explained, most)| *explained > (1.0 - left) * most);
+            place == 0 || may_stand_for(fit, best) && is_as_good()
+        };
+        let believed = (0..judged.len()).filter(is_believed);
+        let simplest = believed.min_by_key(|&place| judged[place].2.columns.len()).unwrap_or(0);
+        let (ln_bayes, block, fit) = judged.remove(self.form_enough(&judged, simplest, candidates));
+        // What its form may leave does not tell it from others either, nor what theirs may.
+        let own = tolerance(self.name(block, candidates));
+        let is_near = |(nats, other, _): &&(f64, usize, Fit)| {
+            let form = own.max(tolerance(self.name(*other, candidates)));
+            *nats > ln_bayes - (0.5 * form * (before.counted() - fit.counted())).max(RIVAL_NATS)
+        };
+        let near =
+            judged.iter().filter(is_near).map(|other| self.name(other.1, candidates).to_owned()).collect();
+        Some((Model { blocks: vec![block], ln_bayes }, fit, near))
+    }
+
+    /// Of an effect that is there in both of two forms at once at `place` among the fits that are `judged`, the place of the form that is enough alone; else `place`
+    /// itself.
+    fn form_enough(&self, judged: &[(f64, usize, Fit)], place: usize, candidates: &[Candidate]) -> usize {
+        let (_, whole, of_both) = &judged[place];
+        let name = self.name(*whole, candidates);
+        let is_both = |piece: &Piece| piece.effect.name == name && piece.is_of_both_forms();
+        if !of_both.pieces.iter().any(is_both) {
+            return place;
+        }
+        // With numbers enough one bends to what is not its own, as far as it may.
+        let least = if is_bounded(of_both) { f64::INFINITY } else { NEEDED_NATS };
+        let is_enough = |&other: &usize| {
+            let (_, block, fit) = &judged[other];
+            let more = of_both.columns.len().saturating_sub(fit.columns.len());
+            let needed = 0.5 * (fit.left() - of_both.left()) - more as f64;
+            self.name(*block, candidates) == name && more > 0 && needed < least
+        };
+        let cost = |place: usize| judged[place].2.cost();
+        let enough = (0..judged.len()).filter(is_enough).min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
+        enough.unwrap_or(place)
+    }
+}
