@@ -1,5 +1,5 @@
 //! Does the Verilog do what the model says? Bit by bit, at every stage, in both simulators, for specifications of every
-//! kind, under every traffic; and does the model's framing do what a person says?
+//! kind, under traffic of every kind; and does the model's framing do what a person says?
 //!
 //! Chain of trust: `accuracy.rs` shows that the model's numbers are right; here the Verilog is compared with them, and the
 //! framing and the clocks with figures that are worked out by hand; `faults.rs` shows that the comparison can fail.

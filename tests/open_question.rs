@@ -2,7 +2,7 @@
 
 mod diagnosed;
 
-use diagnosed::{names, vuris};
+use diagnosed::{concealed, names, vuris};
 use serde_json::Value;
 use std::path::Path;
 
@@ -24,9 +24,8 @@ const BENCH: [&str; 10] = [
 /// What is said of the four-frame motion recording, with `effect` concealed.
 fn verdict(folder: &Path, effect: Option<&str>) -> Value {
     let out = folder.join(effect.unwrap_or("nothing"));
-    let concealed: Vec<&str> = effect.iter().flat_map(|effect| ["--effect", effect]).collect();
     let own = ["2", "--recordings", "four-motion", "--out", out.to_str().unwrap()];
-    let (good, text) = vuris(&[&BENCH, &own[..], &concealed].concat());
+    let (good, text) = vuris(&[&BENCH, &own[..], &concealed(effect.as_slice())].concat());
     // Three runs of nine sets from 1 to 3 m.
     assert!(good && text.contains("four-motion: 27 sets of 4 frames"), "{text}");
     diagnosed::verdict(&out)

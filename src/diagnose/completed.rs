@@ -23,17 +23,12 @@ pub struct Completed {
 }
 
 impl Completed {
-    /// The fit with all numbers of what `fitted` says with few instead of more, if there is such an effect and they are needed.
+    /// The fit with the numbers of both forms of what `fitted` says in one of them, if there is such an effect and they are needed.
     pub fn of(data: &Data, fitted: &Fit, noise: Noise) -> Option<Self> {
         let mut pieces = fitted.pieces.clone();
-        for piece in &mut pieces {
+        for piece in pieces.iter_mut().filter(|piece| piece.may_be_of_both_forms()) {
             let parameters = piece.effect.parameters;
-            let instead = piece.free.iter().filter(|&&number| parameters[number].is_instead).count();
-            let others = parameters.iter().filter(|p| !p.is_instead && !p.is_shape()).count();
-            let is_one_of_both = piece.may_be_of_both_forms() && !piece.is_of_both_forms();
-            if is_one_of_both || 0 < instead && instead < others {
-                piece.free = (0..parameters.len()).filter(|&number| !parameters[number].is_choice).collect();
-            }
+            piece.free = (0..parameters.len()).filter(|&number| !parameters[number].is_choice).collect();
         }
         let more = |(with, without): (&Piece, &Piece)| with.free.len() - without.free.len();
         let name = pieces

@@ -188,8 +188,8 @@ struct Model {
 }
 
 impl Model {
-    /// After the first step, of the whole one, damped ones and the one with shapes held, that does not lead uphill, or, where it `may_climb`, not far; nothing where there is none, or
-    /// none is worth it.
+    /// After the first step, of all [strides](Stride), that does not lead uphill, or, where it `may_climb`, not far; nothing where there is none, or none is
+    /// worth it.
     fn stepped(
         &self,
         may_climb: bool,

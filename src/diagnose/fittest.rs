@@ -50,7 +50,7 @@ impl Pass {
         };
         let believed = (0..judged.len()).filter(is_believed);
         let simplest = believed.min_by_key(|&place| judged[place].2.columns.len()).unwrap_or(0);
-        let (ln_bayes, block, fit) = judged.remove(self.form_enough(&judged, simplest, candidates));
+        let (ln_bayes, block, fit) = judged.remove(self.form_enough(&judged, simplest));
         // What its form may leave does not tell it from others either, nor what theirs may.
         let own = tolerance(self.name(block, candidates));
         let is_near = |(nats, other, _): &&(f64, usize, Fit)| {
@@ -64,11 +64,9 @@ impl Pass {
 
     /// Of an effect that is there in both of two forms at once at `place` among the fits that are `judged`, the place of the form that is enough alone; else `place`
     /// itself.
-    fn form_enough(&self, judged: &[(f64, usize, Fit)], place: usize, candidates: &[Candidate]) -> usize {
+    fn form_enough(&self, judged: &[(f64, usize, Fit)], place: usize) -> usize {
         let (_, whole, of_both) = &judged[place];
-        let name = self.name(*whole, candidates);
-        let is_both = |piece: &Piece| piece.effect.name == name && piece.is_of_both_forms();
-        if !of_both.pieces.iter().any(is_both) {
+        if !self.is_of_both_forms(*whole) {
             return place;
         }
         // With numbers enough one bends to what is not its own, as far as it may.
@@ -77,7 +75,7 @@ impl Pass {
             let (_, block, fit) = &judged[other];
             let more = of_both.columns.len().saturating_sub(fit.columns.len());
             let needed = 0.5 * (fit.left() - of_both.left()) - more as f64;
-            self.name(*block, candidates) == name && more > 0 && needed < least
+            self.blocks[*block].candidate == self.blocks[*whole].candidate && more > 0 && needed < least
         };
         let cost = |place: usize| judged[place].2.cost();
         let enough = (0..judged.len()).filter(is_enough).min_by(|&a, &b| cost(a).total_cmp(&cost(b)));

@@ -107,9 +107,8 @@ impl Pass {
             inflation <= 1.0 || of_name(inflation, model.ln_bayes, score) > THRESHOLD
         };
         let models = evidence.models().into_iter().filter(stands).collect();
-        let pieces = |block: &Block| &candidates[block.candidate].variants[block.variant].pieces;
-        let of_both = |block| pieces(block).iter().any(Piece::is_of_both_forms);
-        let of_both_forms = blocks.iter().map(of_both).collect();
+        let variant = |block: &Block| &candidates[block.candidate].variants[block.variant];
+        let of_both_forms = blocks.iter().map(|block| variant(block).is_of_both_forms()).collect();
         Self { simpler, models, scores, invisible, detectable, singles, blocks, of_both_forms }
     }
 

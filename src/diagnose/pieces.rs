@@ -44,12 +44,9 @@ impl Piece {
     }
 
     /// Whether it has numbers of both of two forms.
-    pub fn is_of_both_forms(&self) -> bool {
-        let has = |instead: bool| {
-            let parameters = self.free.iter().map(|&number| &self.effect.parameters[number]);
-            parameters.filter(|parameter| !parameter.is_shape()).any(|p| p.is_instead == instead)
-        };
-        has(true) && has(false)
+    fn is_of_both_forms(&self) -> bool {
+        let is_instead = |&number: &usize| self.effect.parameters[number].is_instead;
+        self.may_be_of_both_forms() && self.free.iter().any(is_instead) && !self.free.iter().all(is_instead)
     }
 
     /// Least and greatest value of its parameter `number` where signals go up to `full_scale_dn`: together with what the camera includes it is within the
@@ -100,6 +97,11 @@ pub struct Variant {
 }
 
 impl Variant {
+    /// Whether the effect is there in both of two forms.
+    pub fn is_of_both_forms(&self) -> bool {
+        self.pieces.iter().any(Piece::is_of_both_forms)
+    }
+
     /// Where recordings have pieces of their own, these begin at their `own` shapes.
     fn begin_at(&mut self, own: &[f64]) {
         for piece in self.pieces.iter_mut().filter(|piece| piece.takes.len() == 1) {
@@ -251,9 +253,8 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             // A line is one of many frequencies that were looked at, whichever of them are tried.
             let of_line = |line: Found| line.looked / line.shapes.len() as f64;
             // Both of two forms at once are no further place to look at.
-            let is_of_both = |variant: &&Variant| variant.pieces.iter().any(Piece::is_of_both_forms);
-            let looked = variants.len() - variants.iter().filter(is_of_both).count();
-            let looked = looked as f64 * line.map_or(1.0, of_line);
+            let ways = variants.iter().filter(|variant| !variant.is_of_both_forms()).count();
+            let looked = ways as f64 * line.map_or(1.0, of_line);
             Candidate { effect, looked, variants }
         })
         .collect()
