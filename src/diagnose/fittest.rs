@@ -82,3 +82,53 @@ impl Pass {
         enough.unwrap_or(place)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{injection, taken};
+    use crate::diagnose::data::Data;
+    use crate::diagnose::fit::{fit, unfitted};
+    use crate::diagnose::pieces::candidates;
+    use crate::diagnose::stated_noise;
+    use crate::frames::Geometry;
+
+    const RESPONSE: &str = "intensity_nonlinearity";
+
+    /// How many numbers the form has that is enough for a `response`, of all forms fitted, where both at once have been taken; with the number `bounded` of these at
+    /// its bound.
+    fn numbers_enough(response: &str, bounded: Option<usize>) -> usize {
+        let size = Geometry { width: 16, height: 12 };
+        let effect = injection(&format!("{RESPONSE}:{response}")).unwrap();
+        let recordings = taken(size, 2, &[effect], &["four-motion", "wdft-rail"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let noise = stated_noise(&data);
+        let baseline = unfitted(&data, noise);
+        let candidates = candidates(&data, &baseline.series);
+        let pass = Pass::of(&data, &baseline, &candidates, noise, 1.0);
+        let blocks = (0..pass.blocks.len()).filter(|&block| pass.name(block, &candidates) == RESPONSE);
+        let fitted = |block: usize| {
+            let pieces = pass.pieces(&[block], &candidates);
+            (0.0, block, fit(&data, Some(&baseline), pieces, noise, &|_| true))
+        };
+        let mut judged: Vec<_> = blocks.map(fitted).collect();
+        let place = judged.iter().position(|judged| pass.is_of_both_forms(judged.1)).unwrap();
+        if let Some(number) = bounded {
+            let piece = &mut judged[place].2.pieces[0];
+            piece.values[number] = piece.effect.parameters[number].bounds.1;
+        }
+        judged[pass.form_enough(&judged, place)].2.columns.len()
+    }
+
+    #[test]
+    fn both_forms_at_once_stay_where_neither_is_enough() {
+        assert_eq!(numbers_enough("exponent=0.05", None), 1);
+        assert_eq!(numbers_enough("quadratic=0.06,cubic=0.03", None), 2);
+        assert_eq!(numbers_enough("quadratic=0.035,cubic=0.035,exponent=0.035", None), 3);
+    }
+
+    #[test]
+    fn both_forms_at_once_do_not_stay_at_a_bound() {
+        assert!(numbers_enough("quadratic=0.035,cubic=0.035,exponent=0.035", Some(0)) < 3);
+    }
+}
