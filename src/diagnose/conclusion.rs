@@ -1,7 +1,8 @@
 //! The verdict in a word, from what is named and what is left.
 
 use super::pass::DISBELIEF;
-use super::search::{Named, form_share};
+use super::search::Named;
+use super::tolerated::form_share;
 
 /// The verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

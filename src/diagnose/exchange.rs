@@ -5,7 +5,8 @@ use super::fit::{Fit, fit_below};
 use super::noise::Noise;
 use super::pass::{DISBELIEF, Pass, RIVAL_NATS, SIMPLER_SHARE};
 use super::pieces::{Candidate, tolerance};
-use super::search::{Named, UNDESCRIBED, tolerated};
+use super::search::{Named, UNDESCRIBED};
+use super::tolerated::tolerated;
 
 /// So many are tried in the place of one.
 const MOST: usize = 3;

@@ -3,6 +3,7 @@
 use super::data::Data;
 use super::fit::{Fit, fit};
 use super::noise::Noise;
+use super::split::split_anew;
 
 /// A further step that promises so little, chi squared, is not worth another way: one standard deviation of one number.
 const PROMISED: f64 = 1.0;
@@ -11,6 +12,7 @@ const WAYS: usize = 8;
 
 /// Where `fitted`, to all sets of `data`, leads in further ways, as long as each leads lower and the next step promises something.
 pub fn finished(data: &Data, mut fitted: Fit, noise: Noise) -> Fit {
+    fitted = split_anew(data, fitted, noise);
     for _ in 0..WAYS {
         if fitted.unreached < PROMISED {
             break;

@@ -7,6 +7,7 @@ use super::lines::Series;
 use super::noise::Noise;
 use super::pieces::Piece;
 use super::settling::{moved, settled};
+use super::split::split_anew;
 use super::start::linear;
 use super::stride::{Stride, bounded_step, is_shape};
 use super::watchdog::{ENOUGH, descend};
@@ -239,7 +240,13 @@ impl Model {
 
 /// The fit without any effect.
 pub fn unfitted(data: &Data, noise: Noise) -> Fit {
-    fit(data, None, Vec::new(), noise, &|_| true)
+    let fitted = fit(data, None, Vec::new(), noise, &|_| true);
+    // Only effects of the ambient light tell one split from another.
+    if data.takes.iter().all(|take| take.included.is_empty()) {
+        fitted
+    } else {
+        split_anew(data, fitted, noise)
+    }
 }
 
 /// One step of Gauss and Newton from `fit` for the sets of which `counts` is true.

@@ -17,8 +17,9 @@ use super::random::{
     self, EXCESS_NOISE, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms, of_name,
     random_effect, two_jitters, words,
 };
-use super::search::{Found, Named, tolerated};
+use super::search::{Found, Named};
 use super::searched::{InProportion, Searched, searched};
+use super::tolerated::tolerated;
 use super::vote::Names;
 use crate::physics::effects;
 

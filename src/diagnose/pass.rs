@@ -18,8 +18,6 @@ use std::collections::BTreeMap;
 pub const RIVAL_NATS: f64 = 3.0;
 /// Evidence (nats) that names an effect which explains less than the forms of others may leave.
 const CLEAR_NATS: f64 = 8.0;
-/// It explains at least this share of that.
-const TRUSTED_SHARE: f64 = 0.03;
 /// Where the tangents need not hold, effects whose score is at least this share of the best one's are fitted before one is chosen.
 const LEADING_SHARE: f64 = 0.8;
 /// The same for effects of fewer numbers: what a strong one does its tangent at the baseline need not show.
@@ -209,12 +207,12 @@ impl Pass {
     }
 
     /// The model to be fitted next, `beside` so many effects, if it explains more than what is `tolerated`, or, alone, clearly something and is a
-    /// candidate that is trusted; and, where that is only a part of the best one, the whole.
+    /// candidate that is trusted with that much of chi squared; and, where that is only a part of the best one, the whole.
     pub fn next(
         &self,
         beside: usize,
         tolerated: f64,
-        is_trusted: &dyn Fn(usize) -> bool,
+        is_trusted: &dyn Fn(usize, f64) -> bool,
     ) -> Option<(Model, Model)> {
         let threshold = if beside > 0 { FURTHER_THRESHOLD } else { THRESHOLD };
         let explained =
@@ -222,9 +220,8 @@ impl Pass {
         let enough = |model: &&Model| {
             let most = model.blocks.iter().map(|&block| explained(block)).fold(0.0, f64::max);
             // Of two at once neither is trusted to be more than what a form leaves.
-            let trusted = matches!(model.blocks[..], [block] if is_trusted(self.blocks[block].candidate))
-                && model.ln_bayes > CLEAR_NATS
-                && most > TRUSTED_SHARE * tolerated;
+            let trusted = matches!(model.blocks[..], [block] if is_trusted(self.blocks[block].candidate, most))
+                && model.ln_bayes > CLEAR_NATS;
             model.ln_bayes > threshold && (most > tolerated || trusted)
         };
         let best = self.models.iter().find(enough)?;

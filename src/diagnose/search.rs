@@ -11,17 +11,22 @@ use super::fit::{Fit, fit, fit_below};
 use super::lamps::FLICKER;
 use super::noise::Noise;
 use super::overtones::{OF_CODES, PERIOD};
-use super::pass::{DISBELIEF, Pass, THRESHOLD};
-use super::pieces::{Candidate, Piece, candidates, tolerance};
+use super::pass::{Pass, THRESHOLD};
+use super::pieces::{Candidate, Piece, candidates};
 use super::power::Detectable;
 use super::promised::Promised;
 use super::simpler::Simpler;
+use super::tolerated::tolerated;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
 /// What a flicker is that all frames see at rest.
 const DRIFT: &str = "ambient_drift";
+/// What explains less than that is trusted if it explains at least this share of it, or so much of chi squared: of what the form of a strong effect leaves, no
+/// other one explains so much that nothing is left.
+const TRUSTED_SHARE: f64 = 0.03;
+const TRUSTED_CHI2: f64 = 100.0;
 /// Beside so many, what the forms of these may leave is no further one.
 const MOST_TRUSTED: usize = 2;
 /// Nor one that alone, at the baseline, would have explained this share of what the first one did.
@@ -74,18 +79,6 @@ impl Found {
         let is_small = |(number, named): (usize, &Named)| named.score.0 < tolerated(&self.named[..number]);
         self.named.iter().enumerate().any(is_small)
     }
-}
-
-/// What stands of the named effects' evidence may come from their own form: this much of what they explain is theirs.
-pub fn tolerated(named: &[Named]) -> f64 {
-    named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
-}
-
-/// Of what effects explain together, the share that may be left of it before they are not believed: each one's form may leave a part of what that effect
-/// explains, and no loose form excuses what is left of another's.
-pub fn form_share(named: &[Named]) -> f64 {
-    let all: f64 = named.iter().map(|named| named.score.0).sum();
-    if all > 0.0 { DISBELIEF * tolerated(named) / all } else { 0.0 }
 }
 
 /// A search, as far as it has come.
@@ -185,11 +178,14 @@ impl<'a> Search<'a> {
         let before = |name: &str| Alone::of(alone, name).map_or(0.0, |alone| alone.chi2);
         let of_first = self.named.first().map_or(f64::INFINITY, |named| before(named.name));
         let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
-        let trusts = trust && !is_far && self.named.len() < MOST_TRUSTED;
-        let is_trusted = |candidate: usize| trusts && !is_alike(candidate);
+        let trusts = trust && !(is_far && data.assumed.camera) && self.named.len() < MOST_TRUSTED;
         let tolerated = share * tolerated(&self.named) + self.of_included;
+        let most = if data.assumed.camera { f64::INFINITY } else { TRUSTED_CHI2 };
+        let is_trusted = |candidate: usize, chi2: f64| {
+            trusts && !is_alike(candidate) && chi2 > (TRUSTED_SHARE * tolerated).min(most)
+        };
         let next = pass.next(self.named.len(), tolerated, &is_trusted);
-        let without = pass.next(self.named.len(), tolerated, &|_| false);
+        let without = pass.next(self.named.len(), tolerated, &|_, _| false);
         let without = (without != next).then(|| Self {
             baseline: self.baseline.clone(),
             current: self.current.clone(),
@@ -377,20 +373,5 @@ fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<N
         let Some((number, _, left)) = least.filter(|least| least.1 < NEEDED_NATS) else { return };
         *current = left;
         named.remove(number);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_weak_loose_form_excuses_little() {
-        let named = |name, chi2| Named { name, ln_bayes: 0.0, score: (chi2, 1), rivals: Vec::new() };
-        let both = [named("encoder_cyclic", 194.0), named("intensity_related_phase", 30.0)];
-        let is = |share: f64, of: &[Named]| (form_share(of) - share).abs() < 1e-12;
-        assert!(is(0.03, &both[..1]) && is(0.24, &both[1..]));
-        assert!(is(3.0 * (1.94 + 2.4) / 224.0, &both));
-        assert_eq!(form_share(&[]), 0.0);
     }
 }

@@ -65,11 +65,7 @@ fn search(data: &Data, baseline: Fit, noise: Noise, of_included: f64) -> Searche
     };
     let (mut found, without_trust) = Search::new(data, baseline, noise, inflation, of_included).with_trust();
     let mut after = end(&found);
-    // Far from the baseline no form was trusted.
-    let is_far = found.baseline.is_far_from(&found.fit);
-    if let Some(search) =
-        without_trust.filter(|_| !is_far && found.trusts_forms() && !places(data, &after).is_empty())
-    {
+    if let Some(search) = without_trust.filter(|_| found.trusts_forms() && !places(data, &after).is_empty()) {
         found = search.without_trust();
         after = end(&found);
     }

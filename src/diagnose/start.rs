@@ -3,16 +3,14 @@
 use super::columns::OWN;
 use super::data::Data;
 use super::in_order::summed;
+use super::split::split_light;
 use crate::bench::chain;
-use crate::physics::{Chain, Memory, Moment, Pixels};
+use crate::physics::{Chain, Memory, Pixels};
 use nalgebra::{Matrix4, Vector4};
 use std::sync::Arc;
 
 /// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
 pub const BACKGROUND_M: f64 = 1.0;
-/// The constant part of the camera's own light over its amplitude, where no pixel tells it: that of pixels which take back half of what the light is modulated by.
-const USUAL_RATIO: f64 = 2.0;
-
 fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
     let geometry = data.geometry();
     let camera = &data.camera;
@@ -81,28 +79,4 @@ pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixel
     }
     split_light(data, &mut numbers);
     Arc::new(pixels(data, numbers))
-}
-
-/// A background that never moves does not tell its constant light from the ambient light, nor does a target that is always at one place: it is given the usual
-/// ratio of constant light to amplitude of pixels that do, as far as there is so much light. Of a scene that stands still all light is taken for the camera's own.
-fn split_light(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
-    let mut ratios: Vec<f64> = (0..data.pixels())
-        .filter(|&pixel| data.target[pixel] && data.tells_constant(pixel) && numbers[0][pixel] > 0.0)
-        .map(|pixel| numbers[2][pixel] / numbers[0][pixel])
-        .collect();
-    ratios.sort_by(f64::total_cmp);
-    let untold = if data.assumed.still_scene { f64::INFINITY } else { USUAL_RATIO };
-    let ratio = ratios.get(ratios.len() / 2).copied().unwrap_or(untold).max(0.0);
-    let place_m = data.lit().next().map_or(BACKGROUND_M, Moment::commanded_m);
-    let obliquities = data.obliquities();
-    for pixel in (0..data.pixels()).filter(|&pixel| !data.tells_constant(pixel)) {
-        // Ambient light is what it is at the pixel, the camera's own that at 1 m.
-        let range_m = if data.target[pixel] { place_m * obliquities[pixel] } else { BACKGROUND_M };
-        let light = (range_m * range_m).recip();
-        // Without any light there is none to split.
-        let share = if numbers[0][pixel] > 0.0 { ratio * numbers[0][pixel] } else { 0.0 };
-        let constant = share.min(numbers[3][pixel].max(0.0) / light);
-        numbers[2][pixel] = constant;
-        numbers[3][pixel] -= constant * light;
-    }
 }

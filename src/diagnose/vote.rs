@@ -5,7 +5,8 @@ use super::lamps::FLICKER;
 use super::location::{LOCATED_NATS, Located, Location};
 use super::pass::RIVAL_NATS;
 use super::pieces::{OF_OTHER_PIXELS, Piece};
-use super::search::{Found, Named, tolerated};
+use super::search::{Found, Named};
+use super::tolerated::tolerated;
 
 /// What an effect's freedom costs, nats, where its evidence is taken from its fit.
 const OCCAM_NATS: f64 = 10.0;
