@@ -118,10 +118,58 @@ fn a_strong_flicker_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let options = ["--size", "16x12", "--effect", "ambient_flicker:cosine=0.3,sine=0.1"];
     let verdict = verdict(folder.path(), "four-motion,wdft-rail,wdft-motion", &options);
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
     assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
     assert!(verdict["remainder"]["coordinate"].is_null(), "{verdict:#}");
     let (cosine, sigma) = parameter(&verdict, "cosine");
     assert!((cosine - 0.3).abs() < 4.0 * sigma, "{cosine} +- {sigma}");
+}
+
+/// A lamp that is no pure sine, by 0.7 %: what a flicker leaves of it is some 300 of chi squared in the ambient light, and no drift of that, though a drift would leave
+/// nothing.
+#[test]
+fn what_the_form_of_a_strong_flicker_leaves_is_no_drift() {
+    const LAMP: &str = r#"
+        [[effect]]
+        name = "lamp_of_two_lines"
+        sentence = "A lamp behind a rectifier: twice the mains frequency, and four times."
+        acts_on = "ambient"
+        formula = "first * cos(2 * PI * 100.003 * time_s) + second * cos(4 * PI * 100.003 * time_s + 1.0)"
+        [[effect.parameter]]
+        name = "first"
+        unit = "1"
+        bounds = [-1, 1]
+        typical = 0.1
+        [[effect.parameter]]
+        name = "second"
+        unit = "1"
+        bounds = [-1, 1]
+        typical = 0.1
+    "#;
+    let folder = tempfile::tempdir().unwrap();
+    let library = folder.path().join("lamp.toml");
+    std::fs::write(&library, LAMP).unwrap();
+    let effect = ["--size", "16x12", "--effect", "lamp_of_two_lines:first=0.18,second=0.00128"];
+    let options = [&["--library", library.to_str().unwrap()], &effect[..]].concat();
+    let verdict = verdict(folder.path(), "four-motion,wdft-rail,wdft-motion", &options);
+    assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
+}
+
+/// A camera that includes a strong flicker splits the light of its background beside that.
+#[test]
+fn a_strong_flicker_that_is_included_leaves_nothing() {
+    const FLICKER: &str = "ambient_flicker:cosine=0.15,sine=0.1,frequency_hz=100";
+    let folder = tempfile::tempdir().unwrap();
+    let options =
+        ["--recordings", "four-motion,wdft-rail,wdft-motion", "--size", "16x12", "--effect", FLICKER];
+    let campaign = simulated(folder.path().join("campaign"), &options);
+    let camera = campaign.join("camera.toml");
+    let described = std::fs::read_to_string(&camera).unwrap();
+    std::fs::write(&camera, described.replace("[physics]", &format!("[physics]\neffects = [\"{FLICKER}\"]")))
+        .unwrap();
+    let verdict = diagnosed::verdict(&campaign);
+    assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
+    assert!(verdict["probability_of_mismatch"].as_f64().unwrap() < 0.5, "{verdict:#}");
 }
 
 /// A law of geometry has no other form: what explains a thousandth of what the falloff does is no error of that.

@@ -2,12 +2,16 @@
 
 /// Chi squared that noise hides: a residual of less is not seen beside what a name explains.
 const HIDDEN: f64 = 10.0;
+/// The same beside an effect whose form may leave more than what is named: so much stands out nowhere.
+const HIDDEN_BY_FORMS: f64 = 40.0;
 
 /// Odds, against a name that is asserted, of an effect outside the library whose residual is the named one's but for what noise hides: it hides
 /// the share 10 / rho² of the residual. That one in so many unknown effects falls within it, and that unknown effects are as frequent as
-/// known ones, is an assumption, which the calibration of blind campaigns tests (`vuris challenge score`).
-pub fn alias_odds(rho: f64) -> f64 {
-    HIDDEN / rho.powi(2).max(HIDDEN)
+/// known ones, is an assumption, which the calibration of blind campaigns tests (`vuris challenge score`). Of a name that is trusted though the forms of others may leave more
+/// than it explains, 40 is hidden.
+pub fn alias_odds(rho: f64, is_trusted: bool) -> f64 {
+    let hidden = if is_trusted { HIDDEN_BY_FORMS } else { HIDDEN };
+    hidden / rho.powi(2).max(hidden)
 }
 
 #[cfg(test)]
@@ -16,7 +20,8 @@ mod tests {
 
     #[test]
     fn a_strong_effect_has_no_alias() {
-        assert_eq!(alias_odds(0.0), 1.0);
-        assert!((alias_odds(10.0) - 0.1).abs() < 1e-12 && (alias_odds(100.0) - 1e-3).abs() < 1e-12);
+        assert_eq!(alias_odds(0.0, false), 1.0);
+        let is = |rho: f64, is_trusted: bool, odds: f64| (alias_odds(rho, is_trusted) - odds).abs() < 1e-12;
+        assert!(is(10.0, false, 0.1) && is(100.0, false, 1e-3) && is(20.0, true, 0.1));
     }
 }

@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     fn named(name: &'static str, chi2: f64) -> Named {
-        Named { name, ln_bayes: 0.0, score: (chi2, 1), rivals: Vec::new() }
+        Named { name, ln_bayes: 0.0, score: (chi2, 1), rivals: Vec::new(), is_trusted: false }
     }
 
     fn case(named: &[Named], remainder: f64) -> Case<'_> {

@@ -28,7 +28,7 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
     let rho = (chi2 - degrees_of_freedom as f64).max(0.0).sqrt();
     // Rivals are within a few nats; everything else that is known has what the threshold leaves.
     let rivals = named.rivals.len() as f64 * (-1.5f64).exp();
-    let alias = alias_odds(rho);
+    let alias = alias_odds(rho, named.is_trusted);
     let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp() + alias);
     EffectRow {
         name: named.name,

@@ -89,7 +89,8 @@ fn simpler(first: &Pass, candidates: &[Candidate], named: &[Named], number: usiz
 mod tests {
     use super::*;
     use crate::bench::{injection, taken};
-    use crate::diagnose::fit::{fit, unfitted};
+    use crate::diagnose::finished::unfitted;
+    use crate::diagnose::fit::fit;
     use crate::diagnose::pieces::{Piece, candidates};
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
@@ -129,6 +130,7 @@ mod tests {
             ln_bayes: 100.0,
             score: first.scores[block].unwrap(),
             rivals: Vec::new(),
+            is_trusted: false,
         };
         let mut named: Vec<Named> = blocks.iter().map(named).collect();
         let before = current.chi2;

@@ -62,10 +62,12 @@ const SETTLINGS: usize = 8;
 
 /// The pixels' own numbers beside `pieces` that are known, from nothing but `data`: led by steps to where the effects are as strong as that.
 pub fn beside(data: &Data, pieces: &[Piece], noise: Noise) -> Arc<Pixels> {
-    APPROACH.into_iter().fold(start(data, noise, &|_| true), |pixels, share| {
+    let near = APPROACH.into_iter().fold(start(data, noise, &|_| true), |pixels, share| {
         let pieces: Vec<Piece> = pieces.iter().map(|piece| piece.with_share(share)).collect();
         settled(data, &pixels, None, SETTLINGS, &pieces, noise, &|_| true)
-    })
+    });
+    let anew = split_anew(data, &near, pieces);
+    anew.map_or(near, |anew| settled(data, &Arc::new(anew), None, SETTLINGS, pieces, noise, &|_| true))
 }
 
 /// Iterations of Gauss and Newton at most: the pixels' own numbers start close, a response that is far from linear does not.
@@ -235,17 +237,6 @@ impl Model {
         let Round { columns, projected, covariance, gain, samples, series, beyond, .. } = round;
         let Projected { chi2, jitter_m2, .. } = projected;
         Fit { pixels, pieces, columns, covariance, chi2, beyond, unreached: gain, samples, jitter_m2, series }
-    }
-}
-
-/// The fit without any effect.
-pub fn unfitted(data: &Data, noise: Noise) -> Fit {
-    let fitted = fit(data, None, Vec::new(), noise, &|_| true);
-    // Only effects of the ambient light tell one split from another.
-    if data.takes.iter().all(|take| take.included.is_empty()) {
-        fitted
-    } else {
-        split_anew(data, fitted, noise)
     }
 }
 

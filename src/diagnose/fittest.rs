@@ -88,7 +88,8 @@ mod tests {
     use super::*;
     use crate::bench::{injection, taken};
     use crate::diagnose::data::Data;
-    use crate::diagnose::fit::{fit, unfitted};
+    use crate::diagnose::finished::unfitted;
+    use crate::diagnose::fit::fit;
     use crate::diagnose::pieces::candidates;
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;

@@ -234,7 +234,8 @@ mod tests {
     use crate::bench::{
         Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor, taken,
     };
-    use crate::diagnose::fit::{fit_until, unfitted};
+    use crate::diagnose::finished::unfitted;
+    use crate::diagnose::fit::fit_until;
     use crate::diagnose::pieces::Piece;
     use crate::diagnose::stated_noise;
     use crate::frames::{Geometry, RawSets};

@@ -136,6 +136,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         ln_bayes,
         score: (2.0 * ln_bayes, 1),
         rivals: Vec::new(),
+        is_trusted: false,
     };
     named.extend(at_random.iter().map(as_named));
     let mut random: Vec<_> = at_random.iter().map(|random| (random.name, random.strength)).collect();

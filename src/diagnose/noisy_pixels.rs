@@ -74,7 +74,7 @@ pub fn noisy_pixels(data: &Data, fit: &Fit, noise: Noise) -> Vec<usize> {
 mod tests {
     use super::*;
     use crate::bench::{injection, taken};
-    use crate::diagnose::fit::unfitted;
+    use crate::diagnose::finished::unfitted;
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
     use crate::physics::Draws;

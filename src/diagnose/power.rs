@@ -85,7 +85,7 @@ fn unusual(piece: &Piece) -> f64 {
 mod tests {
     use crate::bench::taken;
     use crate::diagnose::Data;
-    use crate::diagnose::fit::unfitted;
+    use crate::diagnose::finished::unfitted;
     use crate::diagnose::pass::Pass;
     use crate::diagnose::pieces::candidates;
     use crate::diagnose::stated_noise;

@@ -230,7 +230,7 @@ impl Profiles {
 mod tests {
     use super::*;
     use crate::bench::taken;
-    use crate::diagnose::fit::unfitted;
+    use crate::diagnose::finished::unfitted;
     use crate::diagnose::location::locate;
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;

@@ -71,7 +71,8 @@ mod tests {
     #[test]
     fn what_was_tried_beside_what_came_as_promised_is_not_tried_again() {
         let [falloff, drift] = ["inverse_square_falloff", "illumination_drift"];
-        let named = |name| Named { name, ln_bayes: 9.0, score: (9.0, 1), rivals: Vec::new() };
+        let named =
+            |name| Named { name, ln_bayes: 9.0, score: (9.0, 1), rivals: Vec::new(), is_trusted: false };
         let promised = Promised {
             pieces: vec![piece(falloff, &[0]), piece(drift, &[0, 1, 2])],
             named: [falloff, drift].map(named).to_vec(),

@@ -16,17 +16,17 @@ use super::pieces::{Candidate, Piece, candidates};
 use super::power::Detectable;
 use super::promised::Promised;
 use super::simpler::Simpler;
-use super::tolerated::tolerated;
+use super::tolerated::{are_of_one_quantity, tolerated};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
 /// What a flicker is that all frames see at rest.
 const DRIFT: &str = "ambient_drift";
-/// What explains less than that is trusted if it explains at least this share of it, or so much of chi squared: of what the form of a strong effect leaves, no
-/// other one explains so much that nothing is left.
+/// What explains less than forms may leave is trusted if it explains at least this share of that.
 const TRUSTED_SHARE: f64 = 0.03;
-const TRUSTED_CHI2: f64 = 100.0;
+/// Or so much of chi squared: what is left then would stand out, unless another effect says as much as four fifths of what a form leaves.
+const TRUSTED_CHI2: f64 = 200.0;
 /// Beside so many, what the forms of these may leave is no further one.
 const MOST_TRUSTED: usize = 2;
 /// Nor one that alone, at the baseline, would have explained this share of what the first one did.
@@ -47,6 +47,8 @@ pub struct Named {
     pub score: (f64, usize),
     /// Other effects that do about as well in the place of one that was found with it.
     pub rivals: Vec<String>,
+    /// Whether it was named though the forms of others may leave more than it explains.
+    pub is_trusted: bool,
 }
 
 /// What the search found.
@@ -74,10 +76,9 @@ impl Found {
         Alone::of(&self.alone, name)
     }
 
-    /// Whether an effect is named that explains less than the forms of those before it may leave.
+    /// Whether an effect is named though the forms of others may leave more than it explains.
     pub fn trusts_forms(&self) -> bool {
-        let is_small = |(number, named): (usize, &Named)| named.score.0 < tolerated(&self.named[..number]);
-        self.named.iter().enumerate().any(is_small)
+        self.named.iter().any(|named| named.is_trusted)
     }
 }
 
@@ -171,22 +172,32 @@ impl<'a> Search<'a> {
         let candidates = candidates(data, &self.current.series);
         let pass = Pass::of(data, &self.current, &candidates, noise, self.inflation);
         let (_, alone) = self.first.get_or_insert_with(|| (pass.clone(), pass.alone(&candidates)));
-        // Far from the baseline forms are not that well known.
+        // Far from the baseline forms are not that well known, and what nobody described is not trusted there.
         let is_far = self.baseline.is_far_from(&self.current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
         // What would have explained most of the first one is what the form of that leaves.
         let before = |name: &str| Alone::of(alone, name).map_or(0.0, |alone| alone.chi2);
         let of_first = self.named.first().map_or(f64::INFINITY, |named| before(named.name));
         let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
-        let trusts = trust && !(is_far && data.assumed.camera) && self.named.len() < MOST_TRUSTED;
+        // Nor is what says the same as the numbers that an effect got one for asked before these.
+        let trusts = trust
+            && !(is_far && data.assumed.camera)
+            && self.named.len() < MOST_TRUSTED
+            && self.completed.is_none();
         let tolerated = share * tolerated(&self.named) + self.of_included;
-        let most = if data.assumed.camera { f64::INFINITY } else { TRUSTED_CHI2 };
+        // What is of the quantity of a named effect may be its form, and what is included has none that was seen.
+        let is_other = |candidate: usize| {
+            let is_of = |named: &Named| are_of_one_quantity(named.name, candidates[candidate].effect.name);
+            !data.assumed.camera && self.of_included == 0.0 && !self.named.iter().any(is_of)
+        };
         let is_trusted = |candidate: usize, chi2: f64| {
-            trusts && !is_alike(candidate) && chi2 > (TRUSTED_SHARE * tolerated).min(most)
+            let least_chi2 = if is_other(candidate) { TRUSTED_CHI2 } else { f64::INFINITY };
+            trusts && !is_alike(candidate) && chi2 > (TRUSTED_SHARE * tolerated).min(least_chi2)
         };
         let next = pass.next(self.named.len(), tolerated, &is_trusted);
         let without = pass.next(self.named.len(), tolerated, &|_, _| false);
-        let without = (without != next).then(|| Self {
+        let is_by_trust = without != next;
+        let without = is_by_trust.then(|| Self {
             baseline: self.baseline.clone(),
             current: self.current.clone(),
             named: self.named.clone(),
@@ -205,7 +216,9 @@ impl<'a> Search<'a> {
                 if is_believed && self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
                     self.promise(&pass, &candidates, &whole);
                 }
+                let before = self.named.len();
                 let is_named = self.name(&pass, &candidates, best, &whole);
+                self.named.iter_mut().skip(before).for_each(|named| named.is_trusted = is_by_trust);
                 self.is_over = !is_named && completed.is_none() && !self.reconsiders(&pass, &candidates);
             }
             _ => self.is_over = completed.is_none() && !self.reconsiders(&pass, &candidates),
@@ -256,6 +269,7 @@ impl<'a> Search<'a> {
             ln_bayes: whole.ln_bayes,
             score: pass.scores[block].unwrap_or((0.0, 0)),
             rivals: rivals.clone(),
+            is_trusted: false,
         };
         self.promised = Some(Promised {
             pieces: pass.pieces(&whole.blocks, candidates),
@@ -338,6 +352,7 @@ impl<'a> Search<'a> {
                 ln_bayes: best.ln_bayes,
                 score: pass.scores[block].map_or((0.0, 0), |(chi2, degrees)| (explained(chi2), degrees)),
                 rivals: rivals.clone(),
+                is_trusted: false,
             });
         }
         self.completed = if is_far { Completed::of(self.data, &fitted, self.noise) } else { None };

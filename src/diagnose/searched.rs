@@ -1,7 +1,8 @@
 //! Searches: with trust in forms or without, beside noise as it shows and errors that frames share.
 
 use super::data::Data;
-use super::fit::{Fit, unfitted};
+use super::finished::unfitted;
+use super::fit::Fit;
 use super::location::{Location, locate};
 use super::mismatch::places;
 use super::noise::{Noise, beyond};

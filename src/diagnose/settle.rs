@@ -4,7 +4,7 @@ use super::data::Data;
 use super::lines::{Series, SetSeen};
 use super::noise::Noise;
 use super::places::APART_M;
-use super::start::BACKGROUND_M;
+use super::split::BACKGROUND_M;
 use crate::physics::cos_sin;
 use crate::units::phase_rad;
 use nalgebra::{Matrix4, Vector4};

@@ -133,7 +133,7 @@ pub fn moved(pixels: &Pixels, own: &[Vector4<f64>], share: f64) -> Pixels {
 mod tests {
     use super::*;
     use crate::bench::{injection, taken};
-    use crate::diagnose::fit::unfitted;
+    use crate::diagnose::finished::unfitted;
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
 

@@ -2,16 +2,13 @@
 
 use super::columns::{OWN, own_values, own_values_mut};
 use super::data::Data;
-use super::fit::{Fit, fit};
-use super::noise::Noise;
-use super::start::BACKGROUND_M;
-use crate::physics::{Moment, Pixels};
-use std::sync::Arc;
+use super::pieces::Piece;
+use crate::physics::{Moment, Pixels, Place};
 
+/// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
+pub const BACKGROUND_M: f64 = 1.0;
 /// The constant part of the camera's own light over its amplitude, where no pixel tells it: that of pixels which take back half of what the light is modulated by.
 const USUAL_RATIO: f64 = 2.0;
-/// Of chi squared, so much at least is gained where another split fits better: one standard deviation of one number.
-const LEAST_GAIN: f64 = 1.0;
 
 /// A background that never moves does not tell its constant light from the ambient light, nor does a target that is always at one place: it is given the usual
 /// ratio of constant light to amplitude of pixels that do, as far as there is so much light. Of a scene that stands still all light is taken for the camera's own.
@@ -26,7 +23,7 @@ pub fn split_light(data: &Data, numbers: &mut [Vec<f64>; OWN]) {
     let ratio = ratios.get(ratios.len() / 2).copied().unwrap_or(untold).max(0.0);
     for (pixel, light) in lights(data) {
         // Without any light there is none to split.
-        let share = if numbers[0][pixel] > 0.0 { ratio * numbers[0][pixel] } else { 0.0 };
+        let share = if numbers[0][pixel] == 0.0 { 0.0 } else { ratio * numbers[0][pixel].abs() };
         let constant = share.min(numbers[3][pixel].max(0.0) / light);
         numbers[2][pixel] = constant;
         numbers[3][pixel] -= constant * light;
@@ -46,19 +43,15 @@ fn lights(data: &Data) -> Vec<(usize, f64)> {
     untold.map(light).collect()
 }
 
-/// The fit `fitted` to all sets with the light of pixels that do not tell it split anew by what the others say by now, if it fits better so: before an effect of the ambient
-/// light was known, these said something else.
-pub fn split_anew(data: &Data, fitted: Fit, noise: Noise) -> Fit {
-    let Some(pixels) = anew(data, &fitted.pixels) else { return fitted };
-    let from = Fit { pixels: Arc::new(pixels), ..fitted.clone() };
-    let anew = fit(data, Some(&from), fitted.pieces.clone(), noise, &|_| true);
-    if anew.left() + LEAST_GAIN < fitted.left() { anew } else { fitted }
-}
-
-/// Nothing where no pixel tells it, or all do.
-fn anew(data: &Data, pixels: &Pixels) -> Option<Pixels> {
+/// `pixels` whose light is split anew where they do not tell it, by what the others say by now: before an effect of the ambient light was known, these said something else.
+/// Nothing where no pixel tells it, or all do, and where neither `pieces` nor what the camera includes acts on light.
+pub fn split_anew(data: &Data, pixels: &Pixels, pieces: &[Piece]) -> Option<Pixels> {
     let lights = lights(data);
     if data.assumed.still_scene || lights.is_empty() || lights.len() == data.pixels() {
+        return None;
+    }
+    let included = data.takes.iter().flat_map(|take| &take.included).map(|active| active.effect);
+    if !pieces.iter().map(|piece| piece.effect).chain(included).any(|effect| effect.place == Place::Light) {
         return None;
     }
     let mut numbers = own_values(pixels).map(<[f64]>::to_vec);

@@ -3,14 +3,12 @@
 use super::columns::OWN;
 use super::data::Data;
 use super::in_order::summed;
-use super::split::split_light;
+use super::split::{BACKGROUND_M, split_light};
 use crate::bench::chain;
 use crate::physics::{Chain, Memory, Pixels};
 use nalgebra::{Matrix4, Vector4};
 use std::sync::Arc;
 
-/// Range at which the still background is put, m: what it is does not matter, its amplitude and phase are fitted.
-pub const BACKGROUND_M: f64 = 1.0;
 fn pixels(data: &Data, numbers: [Vec<f64>; OWN]) -> Pixels {
     let geometry = data.geometry();
     let camera = &data.camera;

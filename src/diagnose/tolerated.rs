@@ -4,6 +4,15 @@ use super::pass::DISBELIEF;
 use super::pieces::tolerance;
 use super::search::Named;
 
+/// Effects of one quantity, ambient light or the power of the source: what the form of one leaves, another may look like.
+const OF_ONE_QUANTITY: [&[&str]; 2] =
+    [&["ambient_drift", "ambient_flicker"], &["frame_gain", "illumination_drift", "illumination_droop"]];
+
+/// Whether two effects are of one quantity.
+pub fn are_of_one_quantity(one: &str, other: &str) -> bool {
+    OF_ONE_QUANTITY.iter().any(|names| names.contains(&one) && names.contains(&other))
+}
+
 /// What stands of the named effects' evidence may come from their own form: this much of what they explain is theirs.
 pub fn tolerated(named: &[Named]) -> f64 {
     named.iter().map(|named| tolerance(named.name) * named.score.0).sum()
@@ -22,7 +31,13 @@ mod tests {
 
     #[test]
     fn a_weak_loose_form_excuses_little() {
-        let named = |name, chi2| Named { name, ln_bayes: 0.0, score: (chi2, 1), rivals: Vec::new() };
+        let named = |name, chi2| Named {
+            name,
+            ln_bayes: 0.0,
+            score: (chi2, 1),
+            rivals: Vec::new(),
+            is_trusted: false,
+        };
         let both = [named("encoder_cyclic", 194.0), named("intensity_related_phase", 30.0)];
         let is = |share: f64, of: &[Named]| (form_share(of) - share).abs() < 1e-12;
         assert!(is(0.03, &both[..1]) && is(0.24, &both[1..]));

@@ -6,7 +6,7 @@ use super::conclusion::Verdict;
 use super::data::Data;
 use super::effect_row::effect_row;
 use super::evidence::tail;
-use super::fit::unfitted;
+use super::finished::unfitted;
 use super::held_out::{HeldOut, held_out};
 use super::held_out_row::HeldOutRow;
 use super::judge::{Judgement, judge};
