@@ -605,10 +605,13 @@ fn a_small_challenge_is_made_answered_and_scored() {
 fn cases_of_every_kind_are_drawn_and_are_whole() {
     let cases = drawn(100, 3, true);
     let count = |kind| cases.iter().filter(|case| case.kind() == kind).count();
-    assert_eq!((count(CaseKind::Clean), count(CaseKind::Single), count(CaseKind::Outside)), (20, 36, 16));
+    assert_eq!((count(CaseKind::Clean), count(CaseKind::Single), count(CaseKind::Outside)), (20, 34, 15));
+    assert_eq!([CaseKind::Under, CaseKind::FarUnder].map(count), [5, 6]);
     assert!(cases.windows(2).filter(|two| two[0].kind() != two[1].kind()).count() > 50);
     assert_eq!(drawn(100, 3, true), cases);
     assert_ne!(drawn(100, 4, true), cases);
+    let far = cases.iter().find(|case| case.kind() == CaseKind::FarUnder).unwrap().made().unwrap().0;
+    assert!(far.effects[0].rho > 20.0 * far.effects[1].rho, "{far:?}");
     let (label, recordings) = cases[0].made().unwrap();
     assert_eq!((label.case.as_str(), cases[0].name().as_str()), ("001", "001"));
     for recording in recordings {

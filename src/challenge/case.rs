@@ -27,23 +27,26 @@ pub enum CaseKind {
     Alike,
     /// One under another that is several times as strong.
     Under,
+    /// One under another that is so strong that what its form leaves might be as much.
+    FarUnder,
     /// One that no library has.
     Outside,
 }
 
-/// Every kind with its share of the cases, its range of strengths, and its name in a table.
-const KINDS: &[(CaseKind, usize, [f64; 2], &str)] = &[
-    (CaseKind::Clean, 20, [0.0, 0.0], "clean"),
-    (CaseKind::Single, 36, [4.0, 60.0], "one effect"),
-    (CaseKind::Pair, 14, [8.0, 60.0], "two effects"),
-    (CaseKind::Alike, 8, [12.0, 60.0], "two look-alikes"),
-    (CaseKind::Under, 6, [8.0, 15.0], "one under a larger"),
-    (CaseKind::Outside, 16, [6.0, 60.0], "outside the library"),
+/// Every kind with its share of the cases, its range of strengths, how many times as strong the first of two effects is, and its name in a table.
+const KINDS: &[(CaseKind, usize, [f64; 2], f64, &str)] = &[
+    (CaseKind::Clean, 20, [0.0, 0.0], 1.0, "clean"),
+    (CaseKind::Single, 34, [4.0, 60.0], 1.0, "one effect"),
+    (CaseKind::Pair, 13, [8.0, 60.0], 1.0, "two effects"),
+    (CaseKind::Alike, 7, [12.0, 60.0], 1.0, "two look-alikes"),
+    (CaseKind::Under, 5, [8.0, 15.0], 5.0, "one under a larger"),
+    (CaseKind::FarUnder, 6, [15.0, 30.0], 40.0, "one far under"),
+    (CaseKind::Outside, 15, [6.0, 60.0], 1.0, "outside the library"),
 ];
-/// How many times as strong the larger effect is.
-const LARGER: f64 = 5.0;
-/// Worlds that are tried until an effect has its strength in one.
-const TRIALS: usize = 60;
+/// Worlds that are tried until an effect has its strength in one: few effects can be as strong as a thousand standard deviations.
+const TRIALS: usize = 400;
+/// So much of how many times as strong the first one is to be, it is.
+const LARGER_SHARE: f64 = 0.5;
 /// Below this strength an effect is not worth a case.
 const FAINTEST: f64 = 4.0;
 /// Shapes of another effect that are tried for likeness.
@@ -53,7 +56,7 @@ const SAME: [(&str, &str); 1] = [("encoder_scale", "modulation_frequency_error")
 
 impl fmt::Display for CaseKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = KINDS.iter().find(|row| row.0 == *self).map_or("", |row| row.3);
+        let name = KINDS.iter().find(|row| row.0 == *self).map_or("", |row| row.4);
         f.write_str(name)
     }
 }
@@ -155,7 +158,9 @@ impl Case {
         match self.kind {
             CaseKind::Clean => Vec::new(),
             CaseKind::Single => vec![first],
-            CaseKind::Pair | CaseKind::Under => std::iter::once(first).chain(second(random, false)).collect(),
+            CaseKind::Pair | CaseKind::Under | CaseKind::FarUnder => {
+                std::iter::once(first).chain(second(random, false)).collect()
+            }
             CaseKind::Alike => std::iter::once(first).chain(second(random, true)).collect(),
             CaseKind::Outside => {
                 let outside: Vec<&'static Mechanism> = flaws::all().filter(|row| row.is_outside()).collect();
@@ -166,7 +171,8 @@ impl Case {
 
     /// A world with `mechanisms` at drawn strengths; nothing where one cannot have its strength there.
     fn trial(&self, mechanisms: &[&'static Mechanism], random: &mut ChaCha8Rng) -> Option<Drawn> {
-        let two = matches!(self.kind, CaseKind::Pair | CaseKind::Alike | CaseKind::Under);
+        use CaseKind::{Alike, FarUnder, Pair, Under};
+        let two = matches!(self.kind, Pair | Alike | Under | FarUnder);
         if two && mechanisms.len() != 2 {
             return None;
         }
@@ -176,7 +182,8 @@ impl Case {
         };
         let world = world(random, mechanisms.iter().any(wants_motion), self.scale);
         let known = Known::without(mechanisms.iter().map(|row| row.name));
-        let [low, high] = KINDS.iter().find(|row| row.0 == self.kind).map_or([0.0; 2], |row| row.2);
+        let row = KINDS.iter().find(|row| row.0 == self.kind);
+        let ([low, high], larger) = row.map_or(([0.0; 2], 1.0), |row| (row.2, row.3));
         let draws: Vec<(f64, u64)> =
             mechanisms.iter().map(|_| (low * (high / low).powf(random.random()), random.random())).collect();
         if mechanisms.is_empty() {
@@ -186,11 +193,11 @@ impl Case {
         let mut found = Vec::new();
         let mut changes = Vec::new();
         for (index, (mechanism, &(rho, seed))) in mechanisms.iter().zip(&draws).enumerate() {
-            let larger = if self.kind == CaseKind::Under && index == 0 { LARGER } else { 1.0 };
+            let times = if index == 0 { larger } else { 1.0 };
             let flaw = Flaw::drawn(mechanism, seed);
             // There is only one size of what is the world's own.
             let is_own = matches!(mechanism.hook, Hook::Unknown);
-            let flaw = if is_own { flaw } else { ruler.sized(&flaw, larger * rho)? };
+            let flaw = if is_own { flaw } else { ruler.sized(&flaw, times * rho)? };
             changes.push(ruler.change(Known::without([mechanism.name]), &[&flaw]));
             found.push(flaw);
         }
@@ -199,7 +206,9 @@ impl Case {
             [one, other] => vec![ruler.norm_beside(one, &[other]), ruler.norm_beside(other, &[one])],
             _ => rhos.clone(),
         };
-        if beside.iter().any(|rho| *rho < FAINTEST) {
+        // What has only the world's size may be anything.
+        let is_larger = larger == 1.0 || rhos[0] >= LARGER_SHARE * larger * rhos[1];
+        if beside.iter().any(|rho| *rho < FAINTEST) || !is_larger {
             return None;
         }
         let near = near(&ruler, &found, &changes, random);
