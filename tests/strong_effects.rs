@@ -2,7 +2,7 @@
 
 mod diagnosed;
 
-use diagnosed::{names, parameter, simulated};
+use diagnosed::{concealed, names, parameter, simulated};
 use serde_json::Value;
 use std::path::Path;
 
@@ -110,6 +110,21 @@ fn what_is_weak_beside_a_flicker_far_above_the_noise_is_named_too() {
         assert_eq!(names(&verdict), ["ambient_flicker", name], "{verdict:#}");
         assert_eq!(verdict["effects"][0]["name"], "ambient_flicker");
     }
+}
+
+/// One name is trusted beside a flicker whose form may leave more, and only if nothing is left: of two weak effects none is named, and what is left is told.
+#[test]
+fn what_would_leave_something_is_not_trusted() {
+    let folder = tempfile::tempdir().unwrap();
+    let effects = [
+        "ambient_flicker:cosine=0.15,sine=0.1",
+        "charge_crosstalk:share=0.02",
+        "phase_step_scale:relative=0.002",
+    ];
+    let options = [&["--size", "16x12"][..], &concealed(&effects)].concat();
+    let verdict = verdict(folder.path(), "four-motion,wdft-rail,wdft-motion", &options);
+    assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
+    assert_eq!(verdict["remainder"]["coordinate"], "neighbours", "{verdict:#}");
 }
 
 /// A background that never moves does not tell how much of its light flickers: it has as much of the camera's own as other pixels have by the time that the flicker is known.
