@@ -179,13 +179,13 @@ impl<'a> Search<'a> {
         let before = |name: &str| Alone::of(alone, name).map_or(0.0, |alone| alone.chi2);
         let of_first = self.named.first().map_or(f64::INFINITY, |named| before(named.name));
         let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
-        // Nor is what says the same as the numbers that an effect got one for asked before these.
+        // Nor is anything trusted while a fit with more numbers of an effect waits, which may say the same.
         let trusts = trust
             && !(is_far && data.assumed.camera)
             && self.named.len() < MOST_TRUSTED
             && self.completed.is_none();
         let tolerated = share * tolerated(&self.named) + self.of_included;
-        // What is of the quantity of a named effect may be its form, and what is included has none that was seen.
+        // What is of the quantity of a named effect may be what its form leaves, and what a form leaves that is included was not seen.
         let is_other = |candidate: usize| {
             let is_of = |named: &Named| are_of_one_quantity(named.name, candidates[candidate].effect.name);
             !data.assumed.camera && self.of_included == 0.0 && !self.named.iter().any(is_of)
