@@ -1,14 +1,15 @@
 //! The search: baseline, evidence of all candidates at once, fit of the best, and again for what is left.
 
 use super::alone::Alone;
-use super::completed::{Completed, NEEDED_NATS};
+use super::completed::Completed;
 use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
 use super::exchange::exchange;
 use super::finished::finished;
-use super::fit::{Fit, fit, fit_below};
+use super::fit::{Fit, fit};
 use super::lamps::FLICKER;
+use super::needless::drop_needless;
 use super::noise::Noise;
 use super::overtones::{OF_CODES, PERIOD};
 use super::pass::{Pass, THRESHOLD};
@@ -16,21 +17,16 @@ use super::pieces::{Candidate, Piece, candidates};
 use super::power::Detectable;
 use super::promised::Promised;
 use super::simpler::Simpler;
-use super::tolerated::{are_of_one_quantity, tolerated};
+use super::tolerated::tolerated;
+use super::trust::Trust;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
 /// What a flicker is that all frames see at rest.
 const DRIFT: &str = "ambient_drift";
-/// What explains less than forms may leave is trusted if it explains at least this share of that.
-const TRUSTED_SHARE: f64 = 0.03;
-/// Or so much of chi squared: what is left then would stand out, unless another effect says as much as four fifths of what a form leaves.
-const TRUSTED_CHI2: f64 = 200.0;
 /// Beside so many, what the forms of these may leave is no further one.
 const MOST_TRUSTED: usize = 2;
-/// Nor one that alone, at the baseline, would have explained this share of what the first one did.
-const ALIKE_SHARE: f64 = 0.5;
 /// Without a camera's description much is left out at once: so much of what their forms may leave keeps further effects out.
 pub const UNDESCRIBED: f64 = 0.1;
 /// A fit keeps at least so much of what the tangents promise.
@@ -175,25 +171,24 @@ impl<'a> Search<'a> {
         // Far from the baseline forms are not that well known, and what nobody described is not trusted there.
         let is_far = self.baseline.is_far_from(&self.current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
-        // What would have explained most of the first one is what the form of that leaves.
-        let before = |name: &str| Alone::of(alone, name).map_or(0.0, |alone| alone.chi2);
-        let of_first = self.named.first().map_or(f64::INFINITY, |named| before(named.name));
-        let is_alike = |candidate: usize| before(candidates[candidate].effect.name) > ALIKE_SHARE * of_first;
         // Nor is anything trusted while a fit with more numbers of an effect waits, which may say the same.
         let trusts = trust
             && !(is_far && data.assumed.camera)
             && self.named.len() < MOST_TRUSTED
             && self.completed.is_none();
         let tolerated = share * tolerated(&self.named) + self.of_included;
-        // What is of the quantity of a named effect may be what its form leaves, and what a form leaves that is included was not seen.
-        let is_other = |candidate: usize| {
-            let is_of = |named: &Named| are_of_one_quantity(named.name, candidates[candidate].effect.name);
-            !data.assumed.camera && self.of_included == 0.0 && !self.named.iter().any(is_of)
+        let trust = Trust {
+            named: &self.named,
+            tolerated,
+            alone: &|name| Alone::of(alone, name).map_or(0.0, |alone| alone.chi2),
+            is_described: !data.assumed.camera && self.of_included == 0.0,
         };
-        let is_trusted = |candidate: usize, chi2: f64| {
-            let least_chi2 = if is_other(candidate) { TRUSTED_CHI2 } else { f64::INFINITY };
-            trusts && !is_alike(candidate) && chi2 > (TRUSTED_SHARE * tolerated).min(least_chi2)
+        let least = |candidate: &Candidate| match trusts {
+            true => trust.least_chi2(candidate.effect.name),
+            false => f64::INFINITY,
         };
+        let least: Vec<f64> = candidates.iter().map(least).collect();
+        let is_trusted = |candidate: usize, chi2: f64| chi2 > least[candidate];
         let next = pass.next(self.named.len(), tolerated, &is_trusted);
         let without = pass.next(self.named.len(), tolerated, &|_, _| false);
         let is_by_trust = without != next;
@@ -216,8 +211,12 @@ impl<'a> Search<'a> {
                 if is_believed && self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
                     self.promise(&pass, &candidates, &whole);
                 }
+                // Nor is what wins a contest that one opens which is trusted.
+                let may_be_named = |candidate: usize, chi2: f64| {
+                    !is_by_trust || chi2 > tolerated || is_trusted(candidate, chi2)
+                };
                 let before = self.named.len();
-                let is_named = self.name(&pass, &candidates, best, &whole);
+                let is_named = self.name(&pass, &candidates, best, &whole, &may_be_named);
                 self.named.iter_mut().skip(before).for_each(|named| named.is_trusted = is_by_trust);
                 self.is_over = !is_named && completed.is_none() && !self.reconsiders(&pass, &candidates);
             }
@@ -277,8 +276,16 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// Fits what a `pass` says is `best` next, where that is a part of the model `whole`, and names it, if the fit keeps it.
-    fn name(&mut self, pass: &Pass, candidates: &[Candidate], best: Model, whole: &Model) -> bool {
+    /// Fits what a `pass` says is `best` next, where that is a part of the model `whole`, and names it, if the fit keeps it, and if its candidate
+    /// `may_be_named` for so much of chi squared.
+    fn name(
+        &mut self,
+        pass: &Pass,
+        candidates: &[Candidate],
+        best: Model,
+        whole: &Model,
+        may_be_named: &dyn Fn(usize, f64) -> bool,
+    ) -> bool {
         let Self { data, noise, ref current, .. } = *self;
         let mut rivals = pass.rivals(whole, candidates);
         let pieces = |blocks: &[usize]| -> Vec<Piece> {
@@ -345,12 +352,17 @@ impl<'a> Search<'a> {
         // Of one alone it is known what it explains.
         let all = (current.counted() - fitted.counted()).max(0.0);
         let explained = |chi2: f64| if best.blocks.len() == 1 { all } else { chi2.min(all) };
+        let score =
+            |block: usize| pass.scores[block].map_or((0.0, 0), |(chi2, degrees)| (explained(chi2), degrees));
+        if !best.blocks.iter().all(|&block| may_be_named(pass.blocks[block].candidate, score(block).0)) {
+            return false;
+        }
         for &block in &best.blocks {
             let block_of = &pass.blocks[block];
             self.named.push(Named {
                 name: candidates[block_of.candidate].effect.name,
                 ln_bayes: best.ln_bayes,
-                score: pass.scores[block].map_or((0.0, 0), |(chi2, degrees)| (explained(chi2), degrees)),
+                score: score(block),
                 rivals: rivals.clone(),
                 is_trusted: false,
             });
@@ -365,28 +377,4 @@ impl<'a> Search<'a> {
 fn is_bend(data: &Data, pieces: &[Piece]) -> bool {
     let is_long = |piece: &Piece| piece.effect.name == OF_CODES && piece.values[PERIOD] > data.span_dn();
     pieces.iter().any(is_long)
-}
-
-/// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.
-fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<Named>) {
-    while named.len() > 1 {
-        let without = |number: usize| {
-            let name = named[number].name;
-            let pieces: Vec<Piece> =
-                current.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
-            let numbers = named[number].score.1 as f64;
-            // Of numbers that the fit may have, all.
-            let shapes = |piece: &Piece| piece.effect.parameters.iter().filter(|row| row.is_shape()).count();
-            let fitted: usize = pieces.iter().map(|piece| piece.free.len() + shapes(piece)).sum();
-            let most = 0.5 * current.chi2 + NEEDED_NATS + numbers + fitted as f64;
-            let left = fit_below(data, current, pieces, noise, most);
-            let needed = 0.5 * (left.left() - current.chi2) - numbers;
-            (number, needed, left)
-        };
-        // Of two that are needed as little, the later one.
-        let least = (0..named.len()).rev().map(without).min_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((number, _, left)) = least.filter(|least| least.1 < NEEDED_NATS) else { return };
-        *current = left;
-        named.remove(number);
-    }
 }
