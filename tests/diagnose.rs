@@ -64,10 +64,11 @@ fn clean_campaigns_are_clean_and_every_field_is_there() {
 }
 
 /// Effects with values, and the parameter that must come back.
-const SINGLE: [(&str, &str, &str, f64); 9] = [
+const SINGLE: [(&str, &str, &str, f64); 10] = [
     ("image_lag", "image_lag:share=0.02", "share", 0.02),
     // Of five frames another one comes before the first.
     ("image_lag", "image_lag:share=0.02,last_step_before_first=1", "last_step_before_first", 1.0),
+    ("image_lag", "image_lag:share=0.02,last_step_before_first=-1", "last_step_before_first", -1.0),
     ("electrical_crosstalk", "electrical_crosstalk:cosine_dn=1.5,sine_dn=-1", "sine_dn", -1.0),
     ("phase_step_scale", "phase_step_scale:relative=0.004", "relative", 0.004),
     (

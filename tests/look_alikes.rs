@@ -355,3 +355,51 @@ fn a_scale_of_steps_and_offsets_is_no_drift() {
     let both = "phase_step_scale:relative=0.004,scales_the_offset=1";
     assert_eq!(names_of(both), ["phase_step_scale"]);
 }
+
+/// What moves to the left brings what lies on the right: its tangent is another one than that of what moves to the right.
+#[test]
+fn what_moves_sideways_is_named_to_whichever_side_it_moves() {
+    for (name, a_second) in
+        ["columns_a_second", "rows_a_second"].into_iter().flat_map(|name| [(name, 0.1), (name, -0.1)])
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let motion = format!("lateral_motion:{name}={a_second}");
+        let verdict = verdict(&campaign(folder.path(), "16x12", "four-motion,wdft-rail", &[&motion]));
+        assert_eq!(verdict["verdict"], "explained", "{motion}: {verdict:#}");
+        assert_eq!(names(&verdict), ["lateral_motion"], "{motion}: {verdict:#}");
+        let (found, sigma) = parameter(&verdict, name);
+        assert!((found - a_second).abs() < 4.0 * sigma, "{motion}: {found} +- {sigma}");
+    }
+}
+
+/// Light of an emitter beside the lens comes further and is less: each alone, and both, are that emitter's.
+#[test]
+fn an_emitter_beside_the_lens_is_named_with_its_light_and_without() {
+    for number in ["squared_baseline_m2=0.02", "squared_baseline_of_light_m2=0.01"] {
+        let folder = tempfile::tempdir().unwrap();
+        let emitter = format!("illumination_baseline:{number}");
+        let verdict = verdict(&campaign(folder.path(), "16x12", "wdft-rail,wdft-motion", &[&emitter]));
+        assert_eq!(names(&verdict), ["illumination_baseline"], "{number}: {verdict:#}");
+        let (name, value) = number.split_once('=').unwrap();
+        let (found, sigma) = parameter(&verdict, name);
+        assert!((found - value.parse::<f64>().unwrap()).abs() < 4.0 * sigma, "{number}: {found} +- {sigma}");
+    }
+}
+
+/// Sets with 50 DN more than others are left out beside a falloff that explains a hundred times what they do, and nothing is named for them.
+#[test]
+fn a_strong_effect_hides_no_outliers() {
+    const ODD: [(usize, usize); 3] = [(0, 17), (0, 60), (1, 20)];
+    let folder = tempfile::tempdir().unwrap();
+    let recordings = "four-motion,wdft-motion,wdft-rail";
+    let campaign = campaign(folder.path(), "16x12", recordings, &["inverse_square_falloff"]);
+    rewrite(&campaign, |sample| {
+        let is_odd = ODD.contains(&(sample.recording, sample.set));
+        with(sample, if is_odd { 50.0 } else { 0.0 })
+    });
+    let verdict = verdict(&campaign);
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    assert_eq!(names(&verdict), ["inverse_square_falloff"], "{verdict:#}");
+    let left_out: u64 = verdict["provenance"]["sets_left_out"].as_u64().unwrap();
+    assert!((3..=5).contains(&left_out), "{verdict:#}");
+}

@@ -227,3 +227,16 @@ fn errors_that_come_again_at_the_same_place_are_no_jitter() {
     assert!(named.iter().all(|name| !name.contains("jitter")), "{strong:#}");
     assert!(strong["verdict"] != "explained" || named == ["multipath_interference"], "{strong:#}");
 }
+
+/// What a form leaves is nearly the same where the target is again, or near; a jitter is new each time, and is named beside scatter whose form may leave a thousand times as much.
+#[test]
+fn a_jitter_is_named_beside_a_strong_effect() {
+    let folder = tempfile::tempdir().unwrap();
+    let effects = ["lens_scatter:share=0.1", "clock_jitter:sigma_rad=0.004"];
+    let options = [&["--size", "16x12"][..], &concealed(&effects)].concat();
+    let verdict = verdict(folder.path(), "four-motion,wdft-rail,wdft-motion", &options);
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    assert_eq!(names(&verdict), ["clock_jitter", "lens_scatter"], "{verdict:#}");
+    let (sigma_rad, known_to) = parameter(&verdict, "sigma_rad");
+    assert!((sigma_rad - 0.004).abs() < 4.0 * known_to, "{sigma_rad} +- {known_to}");
+}

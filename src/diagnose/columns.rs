@@ -122,13 +122,15 @@ impl<'a> Tangents<'a> {
                     (piece.values.clone(), piece.values[column.parameter] - parameter.off)
                 } else {
                     let mut values = piece.values.clone();
-                    // Away from a bound.
-                    let (_, high) = piece.bounds_within(column.parameter, f64::INFINITY);
-                    let towards = if values[column.parameter] >= high { -1.0 } else { 1.0 };
+                    // Away from a bound, and from off.
+                    let (low, high) = piece.bounds_within(column.parameter, f64::INFINITY);
+                    let (value, step) = (values[column.parameter], STEP * parameter.typical);
+                    let is_beyond = !parameter.is_shape() && value < parameter.off && value - step >= low;
+                    let towards = if value >= high || is_beyond { -1.0 } else { 1.0 };
                     let step = towards
                         * match parameter.is_shape() {
                             true => SHAPE_STEP * parameter.typical.min(values[column.parameter].abs()),
-                            false => STEP * parameter.typical,
+                            false => step,
                         };
                     values[column.parameter] += step;
                     (values, step)

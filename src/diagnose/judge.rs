@@ -14,12 +14,12 @@ use super::noise::Noise;
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::Piece;
 use super::random::{
-    self, EXCESS_NOISE, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms, of_name,
-    random_effect, two_jitters, words,
+    self, CLUSTER_NATS, EXCESS_NOISE, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms,
+    may_be_of_light, new_each_time, of_name, random_effect, two_jitters, words,
 };
 use super::search::{Found, Named};
 use super::searched::{InProportion, Searched, searched};
-use super::tolerated::tolerated;
+use super::tolerated::{tolerated, tolerated_as_new};
 use super::vote::Names;
 use crate::physics::effects;
 
@@ -90,7 +90,13 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
 
     let seems = random_effect(data, &end);
     // A random effect takes with it what is left at random.
-    let random = seems.filter(|random| is_beyond_forms(random.ln_bayes, tolerated(&named)));
+    let is_more = |random: &RandomEffect| {
+        // What a form leaves is nearly the same where the target is again, if the effect is.
+        let as_new = tolerated_as_new(&named, may_be_of_light(&end, random));
+        let new = || new_each_time(&end, random.name) - CLUSTER_NATS;
+        is_beyond_forms(random.ln_bayes, tolerated(&named)) || is_beyond_forms(new(), as_new)
+    };
+    let random = seems.filter(is_more);
     let excess = excess(stated, noise, in_proportion).filter(|_| seems.is_none());
     let mut at_random = at_random(&end, random.or(excess));
     let found_at_random = at_random.len();

@@ -14,13 +14,16 @@ pub struct LeftOut {
     pub sets: BTreeMap<String, Vec<usize>>,
     /// Pixels, by row and column of the sensor.
     pub pixels: Vec<(usize, usize)>,
+    /// The same pixels by their numbers among those that are looked at, and the sets by theirs among all.
+    noisy: Vec<usize>,
+    outlying: Vec<usize>,
 }
 
 /// `data` without what is left out of it, where that is anything, with the fit of the simulation to that, which was `baseline` before.
 pub fn without_outliers(data: &Data, mut baseline: Fit, noise: Noise) -> (Option<Data>, Fit, LeftOut) {
     let refitted = |fewer: &Data, from: &Fit| fit(fewer, Some(from), Vec::new(), noise, &|_| true);
     let noisy = noisy_pixels(data, &baseline, noise);
-    let mut fewer = (!noisy.is_empty()).then(|| data.only(|_, pixel| !noisy.contains(&pixel)));
+    let mut fewer = without_pixels(data, &noisy);
     if let Some(fewer) = &fewer {
         baseline = refitted(fewer, &baseline);
     }
@@ -29,12 +32,38 @@ pub fn without_outliers(data: &Data, mut baseline: Fit, noise: Noise) -> (Option
         baseline = refitted(&without, &baseline);
         fewer = Some(without);
     }
-    let mut left_out = LeftOut::default();
-    let sets = data.sets();
-    for &(take, set) in outlying.iter().filter_map(|&number| sets.get(number)) {
-        left_out.sets.entry(data.takes[take].name.clone()).or_default().push(set);
+    (fewer, baseline, LeftOut::of(data, noisy, outlying))
+}
+
+fn without_pixels(data: &Data, noisy: &[usize]) -> Option<Data> {
+    (!noisy.is_empty()).then(|| data.only(|_, pixel| !noisy.contains(&pixel)))
+}
+
+impl LeftOut {
+    fn of(data: &Data, noisy: Vec<usize>, outlying: Vec<usize>) -> Self {
+        let mut sets = BTreeMap::<String, Vec<usize>>::new();
+        let all = data.sets();
+        for &(take, set) in outlying.iter().filter_map(|&number| all.get(number)) {
+            sets.entry(data.takes[take].name.clone()).or_default().push(set);
+        }
+        let (places, width) = (data.grid.pixels(), data.described.geometry.width);
+        let place = |&pixel: &usize| (places[pixel] / width, places[pixel] % width);
+        Self { sets, pixels: noisy.iter().map(place).collect(), noisy, outlying }
     }
-    let (places, width) = (data.grid.pixels(), data.described.geometry.width);
-    left_out.pixels = noisy.into_iter().map(|pixel| (places[pixel] / width, places[pixel] % width)).collect();
-    (fewer, baseline, left_out)
+
+    /// `data` without what is to be left out of it beside the effects of `fitted`, where those are other sets: a strong effect hides outliers, and may look like some. Where
+    /// nothing is named, no set is.
+    pub fn beside(&self, data: &Data, fitted: &Fit, noise: Noise) -> Option<(Data, Self)> {
+        let quiet = without_pixels(data, &self.noisy);
+        let quiet = quiet.as_ref().unwrap_or(data);
+        let outlying = match &fitted.pieces[..] {
+            [] => Vec::new(),
+            _ if self.outlying.is_empty() => outlying(&fitted.series),
+            pieces => outlying(&fit(quiet, Some(fitted), pieces.to_vec(), noise, &|_| true).series),
+        };
+        (outlying != self.outlying).then(|| {
+            let fewer = quiet.without(&outlying).unwrap_or_else(|| quiet.clone());
+            (fewer, Self::of(data, self.noisy.clone(), outlying))
+        })
+    }
 }

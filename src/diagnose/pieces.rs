@@ -164,6 +164,11 @@ const OF_BOTH_FORMS: [&str; 1] = ["intensity_nonlinearity"];
 /// is off by millimetres that is a mistake; light that comes another way, which amplitudes may take for that, every bench has.
 const UNLIKELY: [(&str, f64); 1] = [("encoder_offset", 10.0)];
 
+/// Effects that are no continuation of themselves beyond off: what moves to one side brings what lies on the other, and what it does must be looked at by itself.
+const WITH_SIDES: [&str; 1] = ["lateral_motion"];
+/// A strength on the far side of off begins at so much of its usual size.
+const BARELY: f64 = -1e-9;
+
 /// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
 pub const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
 
@@ -315,12 +320,27 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         let forms = [strengths, &instead[..], &both[..]].into_iter().filter(|form| !form.is_empty());
         for strengths in forms {
             let rarity = if value > seen_dn { SMOOTH.1 } else { usual };
-            let of =
-                |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data), rarity };
-            variants.extend(groupings.iter().map(of));
+            for values in sides(effect, &values, strengths) {
+                let of =
+                    |&by: &Grouping| Variant { pieces: pieces(effect, &values, strengths, by, data), rarity };
+                variants.extend(groupings.iter().map(of));
+            }
         }
     }
     variants
+}
+
+/// The `values` from which the search for an effect of these `strengths` starts: one of each combination of sides, where it has any.
+fn sides(effect: &Effect, values: &[f64], strengths: &[usize]) -> Vec<Vec<f64>> {
+    let mut sides = vec![values.to_vec()];
+    if WITH_SIDES.contains(&effect.name) {
+        for &number in strengths {
+            let mut beyond = sides.clone();
+            beyond.iter_mut().for_each(|values| values[number] += BARELY * effect.parameters[number].typical);
+            sides.extend(beyond);
+        }
+    }
+    sides
 }
 
 fn pieces(

@@ -6,6 +6,7 @@ use super::noise::Noise;
 use super::pass::RIVAL_NATS;
 use super::pieces::Piece;
 use super::search::Named;
+use super::tolerated::{are_of_distance, tolerated};
 
 /// Both, as they were promised.
 #[derive(Debug, Clone)]
@@ -48,7 +49,11 @@ impl Promised {
         if self.named.iter().all(is_there) {
             return None;
         }
-        let most = came.cost() - RIVAL_NATS;
+        // Of several that are of the distance, what is more may be what the form of one leaves.
+        let all = || names.iter().chain(&self.named).map(|named| named.name);
+        let are_of_distance = all().all(|one| all().all(|other| are_of_distance(one, other)));
+        let of_forms = if are_of_distance { 0.5 * tolerated(names) } else { 0.0 };
+        let most = came.cost() - RIVAL_NATS.max(of_forms);
         let fitted = fit_below(data, baseline, self.pieces.clone(), noise, most);
         (fitted.cost() < most).then(|| {
             // Neither explains more than both.

@@ -1,5 +1,6 @@
 //! What samples share at random: the encoder's usual noise, noise of rows, columns and frames, noise of single pixels, or an effect.
 
+use super::again::{self, Said};
 use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
 use super::jitters::Frame;
@@ -216,6 +217,22 @@ pub fn jitter(data: &Data, location: &Location) -> Option<Jitter> {
 /// Whether a random effect of this evidence, nats, is more than what looks so of the chi squared that the forms of named effects may leave.
 pub fn is_beyond_forms(ln_bayes: f64, of_forms: f64) -> bool {
     ln_bayes > 0.5 * AT_RANDOM * of_forms
+}
+
+/// Whether frames may be off by as much light as at `random` by phase or time.
+pub fn may_be_of_light(location: &Location, random: &RandomEffect) -> bool {
+    let is_of_light = |cluster: &&Cluster| {
+        cluster.level == Level::Frame && matches!(MODES[cluster.mode], "offset" | "gain")
+    };
+    let of_light = location.clusters.iter().filter(is_of_light).map(|cluster| cluster.ln_bayes);
+    of_light.fold(0.0, f64::max) + CLUSTER_NATS > random.ln_bayes
+}
+
+/// Evidence for a jitter of the registry from how frames differ where the target is again, nats.
+pub fn new_each_time(location: &Location, name: &str) -> f64 {
+    let of: [Said; 2] = [|frame| frame.phase, |frame| frame.time];
+    let number = JITTERS.iter().position(|jitter| *jitter == name);
+    number.map_or(0.0, |number| again::new_each_time(&location.jitters, of[number]))
 }
 
 /// The coordinate of a verdict in which errors that samples share are located.

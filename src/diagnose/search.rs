@@ -189,8 +189,10 @@ impl<'a> Search<'a> {
         };
         let least: Vec<f64> = candidates.iter().map(least).collect();
         let is_trusted = |candidate: usize, chi2: f64| chi2 > least[candidate];
-        let next = pass.next(self.named.len(), tolerated, &is_trusted);
-        let without = pass.next(self.named.len(), tolerated, &|_, _| false);
+        // Beside a jitter, which is among the noise, a name is a second one.
+        let beside = self.named.len() + usize::from(noise.jitter != data.unpredicted.jitter);
+        let next = pass.next(beside, tolerated, &is_trusted);
+        let without = pass.next(beside, tolerated, &|_, _| false);
         let is_by_trust = without != next;
         let without = is_by_trust.then(|| Self {
             baseline: self.baseline.clone(),
@@ -211,9 +213,13 @@ impl<'a> Search<'a> {
                 if is_believed && self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
                     self.promise(&pass, &candidates, &whole);
                 }
-                // Nor is what wins a contest that one opens which is trusted.
-                let may_be_named = |candidate: usize, chi2: f64| {
-                    !is_by_trust || chi2 > tolerated || is_trusted(candidate, chi2)
+                // Nor is what wins a contest that one opens which is trusted, nor what may as well be one that is not.
+                let may_be_named = |candidate: usize, chi2: f64, rivals: &[String]| {
+                    let is_rival = |name: &str| rivals.iter().any(|rival| rival == name);
+                    let mut all = candidates.iter().zip(&least);
+                    let has_worse =
+                        all.any(|(other, least)| least.is_infinite() && is_rival(other.effect.name));
+                    !is_by_trust || chi2 > tolerated || is_trusted(candidate, chi2) && !has_worse
                 };
                 let before = self.named.len();
                 let is_named = self.name(&pass, &candidates, best, &whole, &may_be_named);
@@ -277,14 +283,14 @@ impl<'a> Search<'a> {
     }
 
     /// Fits what a `pass` says is `best` next, where that is a part of the model `whole`, and names it, if the fit keeps it, and if its candidate
-    /// `may_be_named` for so much of chi squared.
+    /// `may_be_named` for so much of chi squared, beside its rivals.
     fn name(
         &mut self,
         pass: &Pass,
         candidates: &[Candidate],
         best: Model,
         whole: &Model,
-        may_be_named: &dyn Fn(usize, f64) -> bool,
+        may_be_named: &dyn Fn(usize, f64, &[String]) -> bool,
     ) -> bool {
         let Self { data, noise, ref current, .. } = *self;
         let mut rivals = pass.rivals(whole, candidates);
@@ -351,10 +357,18 @@ impl<'a> Search<'a> {
         }
         // Of one alone it is known what it explains.
         let all = (current.counted() - fitted.counted()).max(0.0);
+        // Near the noise, what takes something away from nothing but a few samples that are far off is no effect.
+        if all < 2.0 * THRESHOLD && !current.is_far() {
+            return false;
+        }
         let explained = |chi2: f64| if best.blocks.len() == 1 { all } else { chi2.min(all) };
         let score =
             |block: usize| pass.scores[block].map_or((0.0, 0), |(chi2, degrees)| (explained(chi2), degrees));
-        if !best.blocks.iter().all(|&block| may_be_named(pass.blocks[block].candidate, score(block).0)) {
+        if !best
+            .blocks
+            .iter()
+            .all(|&block| may_be_named(pass.blocks[block].candidate, score(block).0, &rivals))
+        {
             return false;
         }
         for &block in &best.blocks {

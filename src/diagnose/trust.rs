@@ -1,7 +1,7 @@
 //! What is trusted to be an effect of its own beside others whose forms may leave more than it explains.
 
 use super::search::Named;
-use super::tolerated::are_of_one_quantity;
+use super::tolerated::{are_of_distance, are_of_one_quantity};
 
 /// Such an effect is trusted if it explains at least this share of what the forms may leave.
 const SHARE: f64 = 0.03;
@@ -27,7 +27,8 @@ impl Trust<'_> {
     pub fn least_chi2(&self, name: &str) -> f64 {
         // What would have explained most of the first one is what the form of that leaves.
         let is_alike = |first: &Named| (self.alone)(name) > ALIKE_SHARE * (self.alone)(first.name);
-        if self.named.first().is_some_and(is_alike) {
+        let is_of_distance = |named: &Named| are_of_distance(named.name, name);
+        if self.named.first().is_some_and(is_alike) || self.named.iter().any(is_of_distance) {
             return f64::INFINITY;
         }
         // What is of the quantity of a named effect may be what its form leaves, and what a form leaves that is included was not seen.
@@ -53,6 +54,7 @@ mod tests {
         let alone = |name: &str| match name {
             "ambient_flicker" => 1e6,
             "charge_crosstalk" => 501e3,
+            "multipath_interference" => 1.2e6,
             _ => 499e3,
         };
         let trust = |tolerated: f64, is_described: bool| Trust {
@@ -70,6 +72,11 @@ mod tests {
         assert_eq!(trust(1e5, false).least_chi2("phase_step_scale"), 3000.0);
         // Half of what the flicker did, alone.
         assert_eq!(least(1e5, "charge_crosstalk"), f64::INFINITY);
+        // What seems to be further is not trusted beside what seems to be.
+        let path = [Named { name: "multipath_interference", ..flicker.clone() }];
+        let beside_path = |name: &str| Trust { named: &path, ..trust(1e5, true) }.least_chi2(name);
+        assert_eq!(beside_path("encoder_scale"), f64::INFINITY);
+        assert_eq!(beside_path("image_lag"), 200.0);
         // The first one is beside none.
         assert_eq!(Trust { named: &[], ..trust(0.0, true) }.least_chi2("charge_crosstalk"), 0.0);
     }

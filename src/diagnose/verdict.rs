@@ -173,9 +173,21 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     let masked = if data.assumed.still_scene { None } else { with_mask(data, noise) };
     let (data, moved) = masked.as_ref().map_or((data, 0), |(data, moved)| (data, *moved));
     let baseline = unfitted(data, noise);
-    let (fewer, baseline, left_out) = without_outliers(data, baseline, noise);
+    let (mut fewer, baseline, mut left_out) = without_outliers(data, baseline, noise);
+    let mut judgement = judge(fewer.as_ref().unwrap_or(data), baseline, noise);
+    // Sets that random errors make unlike others are no outliers.
+    let is_settled = judgement.verdict == Verdict::Clean || !judgement.random.is_empty();
+    let beside = if is_settled { None } else { left_out.beside(data, &judgement.fit, noise) };
+    if let Some((beside, left)) = beside {
+        let second = judge(&beside, unfitted(&beside, noise), noise);
+        // What explained without these sets is not given up for something else.
+        let is_known = |named: &Named| judgement.named.iter().any(|other| other.name == named.name);
+        let are_known = judgement.verdict != Verdict::Explained || second.named.iter().all(is_known);
+        if second.verdict == Verdict::Explained && are_known && !is_bounded(&second.fit) {
+            (judgement, fewer, left_out) = (second, Some(beside), left);
+        }
+    }
     let data = fewer.as_ref().unwrap_or(data);
-    let mut judgement = judge(data, baseline, noise);
     let held_out = held_out(data, judgement.without(), judgement.with());
     let is_more = held_out.after.chi2_per_dof > EXPLAINED || is_bounded(&judgement.fit);
     if judgement.verdict == Verdict::Explained && is_more {

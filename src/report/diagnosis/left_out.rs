@@ -8,7 +8,7 @@ const MOST: usize = 8;
 
 /// What is `left_out`, a sentence each.
 pub fn sentences(left_out: &LeftOut) -> Vec<String> {
-    let LeftOut { sets, pixels } = left_out;
+    let LeftOut { sets, pixels, .. } = left_out;
     let mut sentences = Vec::new();
     if !sets.is_empty() {
         let of = |(name, sets): (&String, &Vec<usize>)| format!("{name} {}", told(sets, ToString::to_string));
