@@ -392,6 +392,12 @@ fn image_lag(make: Make, findings: &mut Findings) {
     let wdft = |effect| Experiment::of("wdft").cycles(effect);
     findings.below("evenly, five frames know no cycle", wdft(effect()).size(2), 1e-9);
     findings.about("again, they know two", wdft(again()).size(2), 0.02 * 3f64.sqrt() / 9.0 / 0.97, 1e-3);
+    let emptied = || make("image_lag", &[("share", 0.02), ("last_step_before_first", -1.0)]);
+    for (frame, share) in [(0, 0.98), (1, 1.0)] {
+        // A frame by itself has none before it.
+        let [with, without] = [emptied(), Vec::new()].map(|effects| still_frame(&[A], effects, frame)[0]);
+        findings.about("an emptied pixel adds nothing", with, share * without, 1e-12);
+    }
     // l sin δ / (1 − l + l cos δ)
     findings.about("+ l sin delta", four.mean(), 0.02 / 0.98, 0.01);
     findings.below("no dependence on phase", four.rest(&[]), 1e-9);
@@ -444,7 +450,17 @@ fn illumination_baseline(make: Make, findings: &mut Findings) {
         // 1 m away, out from 10 cm beside the lens: 2 pi 30 MHz (sqrt(1.01) - 1) m / c.
         findings.about("3 mrad", e.mean(), 0.003_135_947, 1e-4);
         findings.below("no dependence on phase", e.rest(&[]), 1e-9);
+        let with_light = make("illumination_baseline", &[("squared_baseline_of_light_m2", 0.01)]);
+        findings.about("the same way", Experiment::of(name).cycles(with_light).mean(), e.mean(), 1e-9);
     }
+    // The way out is the root of 1.01 m: of the constant part, which two frames half a turn apart have twice, a hundred and first is gone.
+    let sum = |effects: &dyn Fn() -> Vec<Active>| -> f64 {
+        [0, 2].iter().map(|&frame| still_frame(&[A], effects(), frame)[0]).sum()
+    };
+    let of = |name: &'static str| move || make("illumination_baseline", &[(name, 0.01)]);
+    let lost = |name| sum(&Vec::new) - sum(&of(name));
+    findings.about("light falls", lost("squared_baseline_of_light_m2"), 2.0 * ACTIVE / 101.0, 1e-9);
+    findings.below("the phase alone", lost("squared_baseline_m2").abs(), 1e-9);
 }
 
 fn lateral_motion(make: Make, findings: &mut Findings) {
