@@ -2,7 +2,7 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
-/// Columns and rows a second by which the image moves.
+/// Columns and rows by which the image moves, a second, or, where the carriage's way is not the camera's axis, a metre of that way.
 pub static EFFECT: Effect = Effect {
     name: "lateral_motion",
     sentence: "The image moves sideways during a set, so edges and texture are in another place in every frame.",
@@ -10,6 +10,8 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("columns_a_second", "1/s", 0.0, (-20.0, 20.0), 0.5),
         Parameter::strength("rows_a_second", "1/s", 0.0, (-20.0, 20.0), 0.5),
+        Parameter::strength("columns_a_metre", "1/m", 0.0, (-20.0, 20.0), 0.5).instead(),
+        Parameter::strength("rows_a_metre", "1/m", 0.0, (-20.0, 20.0), 0.5).instead(),
     ],
     place: Place::Correlation,
     chance: Chance::None,
@@ -18,7 +20,8 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let moved = [values[0], values[1]].map(|a_second| a_second * exposure.in_set_s);
+    let of = |side: usize| (values[side] + values[2 + side] * exposure.velocity_m_s) * exposure.in_set_s;
+    let moved = [of(0), of(1)];
     let own = exposure.signal_dn.clone();
     for (pixel, signal) in exposure.signal_dn.iter_mut().enumerate() {
         let (along, down) = exposure.pixels.slopes(&own, pixel, moved);
