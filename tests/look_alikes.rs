@@ -373,7 +373,7 @@ fn what_moves_sideways_is_named_to_whichever_side_it_moves() {
     }
 }
 
-/// Light of an emitter beside the lens comes further and is less: each alone, and both, are that emitter's.
+/// Light of an emitter beside the lens comes further, and is less where amplitudes are not calibrated for it: either way it is that emitter's.
 #[test]
 fn an_emitter_beside_the_lens_is_named_with_its_light_and_without() {
     for number in ["squared_baseline_m2=0.02", "squared_baseline_of_light_m2=0.01"] {

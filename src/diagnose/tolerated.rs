@@ -63,15 +63,13 @@ pub fn form_share(named: &[Named]) -> f64 {
 mod tests {
     use super::*;
 
+    /// An effect of one number that explains so much.
+    fn named(name: &'static str, chi2: f64) -> Named {
+        Named { name, ln_bayes: 0.0, score: (chi2, 1), rivals: Vec::new(), is_trusted: false }
+    }
+
     #[test]
     fn a_weak_loose_form_excuses_little() {
-        let named = |name, chi2| Named {
-            name,
-            ln_bayes: 0.0,
-            score: (chi2, 1),
-            rivals: Vec::new(),
-            is_trusted: false,
-        };
         let both = [named("encoder_cyclic", 194.0), named("intensity_related_phase", 30.0)];
         let is = |share: f64, of: &[Named]| (form_share(of) - share).abs() < 1e-12;
         assert!(is(0.03, &both[..1]) && is(0.24, &both[1..]));
@@ -81,13 +79,6 @@ mod tests {
 
     #[test]
     fn where_the_target_is_again_little_is_left_but_of_what_goes_with_the_time() {
-        let named = |name, chi2| Named {
-            name,
-            ln_bayes: 0.0,
-            score: (chi2, 1),
-            rivals: Vec::new(),
-            is_trusted: false,
-        };
         let all = [named("lens_scatter", 1e6), named("ambient_flicker", 1e5), named("phase_drift", 1e4)];
         let of = |number: usize| tolerance(all[number].name) * all[number].score.0;
         let is = |of_light, expected: f64| (tolerated_as_new(&all, of_light) / expected - 1.0).abs() < 1e-12;
