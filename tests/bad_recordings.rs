@@ -230,8 +230,8 @@ const CASES: &[(Change, &[&str])] = &[
     (Write("camera.toml", b"width = 3"), &["bench", "camera.toml", "sensor is missing", "[sensor]"]),
     (Replace(OF_CAMPAIGN, "width = 3", "width = -3"), &["camera.toml", "sensor.width = -3", "1 to 65536"]),
     (
-        Replace(OF_CAMPAIGN, "adc_bits = 12", "adc_bits = 24"),
-        &["camera.toml", "sensor.adc_bits = 24", "8 to 16"],
+        Replace(OF_CAMPAIGN, "adc_bits = 12", "adc_bits = 25"),
+        &["camera.toml", "sensor.adc_bits = 25", "8 to 24"],
     ),
     (
         Replace(OF_CAMPAIGN, "= 4.0", "= 0.0"),
@@ -281,7 +281,7 @@ fn every_bad_recording_is_refused_with_file_value_and_what_is_allowed() {
 }
 
 #[test]
-fn without_a_camera_codes_beyond_sixteen_bits_are_refused() {
+fn without_a_camera_codes_beyond_twenty_four_bits_are_refused() {
     let campaign = tempfile::tempdir().unwrap();
     let folder = good(campaign.path());
     Remove(OF_CAMPAIGN).apply(&folder);
@@ -291,8 +291,10 @@ fn without_a_camera_codes_beyond_sixteen_bits_are_refused() {
     Array(FRAMES, "'<u4'", false, "(2, 4, 2, 3)", 192).apply(&folder);
     assert_eq!(Recording::open(&folder).unwrap().adc_bits(), 8);
     Byte(FRAMES, 4 * 7 + 2, 1).apply(&folder);
+    assert_eq!(Recording::open(&folder).unwrap().adc_bits(), 17);
+    Byte(FRAMES, 4 * 7 + 3, 1).apply(&folder);
     let problem = Recording::open(&folder).unwrap_err().to_string();
-    for part in [FRAMES, "code 65536 at set 0, frame 1, row 0, column 1", "0 to 65535"] {
+    for part in [FRAMES, "code 16842752 at set 0, frame 1, row 0, column 1", "0 to 16777215"] {
         assert!(problem.contains(part), "{problem}");
     }
 }

@@ -518,7 +518,7 @@ fn what_is_not_known_is_asked_for_and_never_made_up() {
         "--pedestal-dn 64",
         &["given without --adc-bits, --gain-e-per-dn, --read-noise-e, --focal-length-px"],
     );
-    with("--adc-bits 17", &["--adc-bits: 17"]);
+    with("--adc-bits 25", &["--adc-bits: 25"]);
     with(
         "--adc-bits 12 --pedestal-dn 4095 --gain-e-per-dn 1 --read-noise-e 1 --focal-length-px 40",
         &["--pedestal-dn: 4095", "below the greatest code of 12 bits", "way out: "],

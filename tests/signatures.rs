@@ -398,6 +398,11 @@ fn image_lag(make: Make, findings: &mut Findings) {
         let [with, without] = [emptied(), Vec::new()].map(|effects| still_frame(&[A], effects, frame)[0]);
         findings.about("an emptied pixel adds nothing", with, share * without, 1e-12);
     }
+    // A camera that waits at the first step has no lag there: of l less l/4 (1 − cos 2φ + sin 2φ).
+    let waited =
+        Experiment::four().cycles(make("image_lag", &[("share", 0.02), ("last_step_before_first", -3.0)]));
+    findings.about("three of four frames lag", waited.mean(), 0.75 * 0.02, 0.03);
+    findings.about("and know two cycles", waited.size(2), 0.02 * 2f64.sqrt() / 4.0, 0.03);
     // l sin δ / (1 − l + l cos δ)
     findings.about("+ l sin delta", four.mean(), 0.02 / 0.98, 0.01);
     findings.below("no dependence on phase", four.rest(&[]), 1e-9);

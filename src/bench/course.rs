@@ -148,15 +148,15 @@ mod tests {
         let moments = moments(&recording()).unwrap();
         let places: Vec<_> = moments.iter().map(|m| (m.set, m.frame)).collect();
         assert_eq!(places, [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)]);
-        // A period before the set's first frame, where the target is: a step of 1.5 rad before it, or the set's last one.
+        // A period before the set's first frame, where the target is: a step of 1.5 rad before it, the set's last one, or the last one of the set before.
         let before = Moment::before(4, |index| moments[index]);
         assert_eq!(
             before.map(|before| (before.set, before.step_rad, before.position_m)),
-            [(2, -1.5, 1.8), (2, 1.5, 1.8)]
+            [(2, -1.5, 1.8), (2, 1.5, 1.8), (1, 1.5, 1.9)]
         );
         let before = before[0];
         assert!((before.time_s - 1.175).abs() < 1e-12 && (before.in_set_s + 0.025).abs() < 1e-12);
-        assert_eq!(Moment::before(5, |index| moments[index]), [moments[4]; 2]);
+        assert_eq!(Moment::before(5, |index| moments[index]), [moments[4]; 3]);
         let last = moments[5];
         assert_eq!((last.position_m, last.velocity_m_s, last.offset_rad), (1.8, -0.5, 0.25));
         assert_eq!((last.step_rad, last.frames, last.lit, last.frequency_hz), (1.5, 2, true, 30e6));

@@ -64,13 +64,20 @@ fn within(effect: &Effect, parameter: &Parameter, before: f64, text: &str) -> Re
     let rounding = ROUNDING * before.abs();
     // There is no half of a bit.
     let is_whole = parameter.unit == "bit";
+    let is_choice = |value: &f64| !parameter.is_choice || parameter.shapes.contains(value);
     let fits = |value: &f64| {
-        (low - rounding..=high + rounding).contains(value) && (!is_whole || value.fract() == 0.0)
+        (low - rounding..=high + rounding).contains(value)
+            && (!is_whole || value.fract() == 0.0)
+            && is_choice(value)
     };
     text.parse().ok().filter(fits).ok_or_else(|| {
         let found = format!("{}: {} = {text}", effect.name, parameter.name);
         let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
         let number = if is_whole { "a whole number" } else { "a number" };
+        if parameter.is_choice {
+            let choices: Vec<String> = parameter.shapes.iter().map(f64::to_string).collect();
+            return Problem::at("--effect", found).expected(format_args!("one of {}", choices.join(", ")));
+        }
         Problem::at("--effect", found).expected(format_args!("{number} from {low} to {high}{unit}"))
     })
 }
@@ -131,7 +138,11 @@ mod tests {
             ("image_lag:share=0.9", "image_lag: share = 0.9\n  expected: a number from 0 to 0.5"),
             ("image_lag:share=NaN", "image_lag: share = NaN"),
             ("imagelag", "way out: did you mean image_lag?"),
-            ("fixed_point:bits_cut=2.5", "bits_cut = 2.5\n  expected: a whole number from 0 to 8 bit"),
+            ("fixed_point:bits_cut=2.5", "bits_cut = 2.5\n  expected: a whole number from 0 to 16 bit"),
+            (
+                "image_lag:last_step_before_first=-2.5",
+                "last_step_before_first = -2.5\n  expected: one of 0, -1, -2, -3, 1",
+            ),
             ("image_lag:share", "parameter=value"),
         ] {
             let refusal = injection(text).unwrap_err().to_string();

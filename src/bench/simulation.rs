@@ -52,7 +52,10 @@ impl Simulation<'_> {
         let noise = if self.noise || for_pixels { draws.rest.normal(pixels) } else { Vec::new() };
         let pixel_deviates = if for_pixels { draws.rest.normal(pixels) } else { Vec::new() };
         let before = self.chain.looks_back().then(|| match before {
-            Some(before_dn) => Before { evenly_dn: before_dn.clone(), again_dn: before_dn },
+            Some(before_dn) => {
+                let [evenly_dn, again_dn] = [before_dn.clone(), before_dn.clone()];
+                Before { evenly_dn, again_dn, kept_dn: before_dn }
+            }
             None => {
                 let deviates =
                     if moment.frame > 0 { self.deviates(&self.draws(index - 1)) } else { Vec::new() };

@@ -19,7 +19,7 @@ pub fn injection_for(text: &str, adc_bits: u32, library: &[&'static Effect]) -> 
     let Some(specification) = specification_of(text) else { return injection_among(text, library) };
     let taken = Pipeline::named(specification)?.sensor.adc_bits;
     let bits = adc_bits.saturating_sub(taken);
-    // A camera has 16 bits at most, and a specification takes 8 at least.
+    // A camera has 24 bits at most, and a specification takes 8 at least.
     injection(&format!("{}:bits_cut={bits}", effects::FIXED_POINT))
 }
 
@@ -35,7 +35,7 @@ mod tests {
     #[test]
     fn a_pipeline_cuts_what_it_has_no_place_for() {
         // The preset takes 12 bits.
-        for (adc_bits, cut) in [(10, 0.0), (12, 0.0), (13, 1.0), (16, 4.0)] {
+        for (adc_bits, cut) in [(10, 0.0), (12, 0.0), (13, 1.0), (16, 4.0), (24, 12.0)] {
             let active = injection_for("fixed_point:pipeline=vuris", adc_bits, &[]).unwrap();
             assert_eq!((active.effect.name, active.values), ("fixed_point", vec![cut]), "{adc_bits}");
         }

@@ -21,7 +21,7 @@ type Row = (&'static str, &'static str, fn(&Flaw, &World) -> Option<f64>);
 /// The effects whose frames the registry's form gives exactly, at these values (`tests/challenge.rs` compares the frames).
 ///
 /// Not here: where the two forms differ (echo, lag, crosstalk of charge, droop, converter's curve, phase by intensity, mixed pixels,
-/// encoder's errors while the carriage moves), where photons are clipped and not their mean (saturation), where only differences
+/// encoder's errors while the carriage moves, emitters around the lens, motion to the side), where photons are clipped and not their mean (saturation), where only differences
 /// of the parameters show (a gain or an error of each frame), and strengths of chance, whose stated deviation is a rule of thumb.
 const TRUTHS: &[(&str, &[Row])] = &[
     ("axial_motion", &[("share", "1", |_, _| Some(1.0))]),
@@ -36,6 +36,8 @@ const TRUTHS: &[(&str, &[Row])] = &[
         ],
     ),
     ("modulation_frequency_error", &[("relative", "1", |flaw, _| Some(signed(flaw)))]),
+    ("encoder_offset", &[("offset_m", "m", |flaw, _| Some(signed(flaw)))]),
+    ("tap_mismatch", &[("gain", "1", |flaw, _| Some(signed(flaw)))]),
     (
         "illumination_drift",
         &[

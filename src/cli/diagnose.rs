@@ -143,7 +143,10 @@ fn read(campaign: &Path, library: &[&'static Effect]) -> Result<Data> {
         recordings_in(campaign)?.iter().map(|folder| Recording::open(folder)).collect::<Result<_>>()?;
     let data = Data::of(&recordings, library.to_vec())?;
     for take in data.takes.iter().filter(|take| take.signal_dn.iter().all(|signal| signal.is_nan())) {
-        remark(format_args!("{}: says nothing: all its codes are 0, or at full scale", take.name));
+        remark(format_args!(
+            "{}: says nothing: all its codes are 0, or at full scale, or of a background at another modulation frequency",
+            take.name
+        ));
     }
     if let Some((first, others)) = recordings.split_first() {
         if !data.assumed.still_scene && !data.target.contains(&true) {

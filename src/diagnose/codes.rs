@@ -7,7 +7,7 @@ use rustfft::num_complex::Complex64;
 
 /// Codes that are looked at together, DN.
 const BIN_DN: f64 = 2.0;
-/// Bins at most: codes of 16 bits.
+/// Bins at most: codes of 16 bits. Brighter samples of wider codes do not count.
 const MOST: usize = 1 << 15;
 /// Periods, DN: shorter ones are lost in the noise, longer ones are the curve of the response.
 const PERIODS_DN: (f64, f64) = (8.0, 512.0);
@@ -41,7 +41,10 @@ impl Codes {
 
     /// With a sample whose code should be `code`.
     fn add(&mut self, code: f64, score: f64, information: f64) {
-        let bin = ((code / BIN_DN).max(0.0) as usize).min(MOST - 1);
+        let bin = (code / BIN_DN).max(0.0) as usize;
+        if bin >= MOST {
+            return;
+        }
         if self.sums.len() <= bin {
             self.sums.resize(bin + 1, (0.0, 0.0));
         }

@@ -220,7 +220,7 @@ impl<'a> Tangents<'a> {
 }
 
 /// The frame of `chain` at `moment`, after one of the frames `before`, with what is at hand in `memory`.
-fn expose(chain: &Chain, moment: Moment, before: [Moment; 2], memory: Memory) -> Exposure {
+fn expose(chain: &Chain, moment: Moment, before: [Moment; 3], memory: Memory) -> Exposure {
     let before = chain.looks_back().then(|| chain.remember(before, &[]));
     chain.expose(moment, Memory { before, ..memory })
 }

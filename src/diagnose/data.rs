@@ -1,5 +1,6 @@
 //! A campaign as the fit sees it: frames above the pedestal, which samples count, and what the encoder said of each.
 
+use super::backgrounds::at_one_frequency;
 use super::grid::Grid;
 use super::included::Unpredicted;
 use super::places::with_places;
@@ -74,9 +75,6 @@ const ONE_PLACE: f64 = 0.01;
 
 /// Phases that are as near are one.
 const SAME_PHASE_RAD: f64 = 1e-6;
-
-/// So many signals say from where to where signals go.
-const SPANNING: usize = 100_000;
 
 /// What recordings show of the camera's light.
 #[derive(Debug, Clone, Copy)]
@@ -251,6 +249,10 @@ impl Data {
                     .collect(),
             });
         }
+        let target: Vec<bool> = pixels.iter().map(|&pixel| target[pixel]).collect();
+        if !assumed.still_scene {
+            at_one_frequency(&mut takes, &target);
+        }
         let light = SeenLight::of(&takes);
         let union = recordings.iter().flat_map(|r| r.raw.codes()).fold(0, |union, code| union | code);
         let cut_bits = if union == 0 { 0 } else { union.trailing_zeros() };
@@ -259,7 +261,7 @@ impl Data {
             described: camera.clone(),
             grid,
             takes,
-            target: pixels.iter().map(|&pixel| target[pixel]).collect(),
+            target,
             cut_bits,
             unpredicted,
             library: library.to_vec(),
@@ -318,17 +320,6 @@ impl Data {
         signals().map(|&signal| f64::from(signal)).sum::<f64>() / signals().count().max(1) as f64
     }
 
-    /// From the darkest signal to the brightest one, but for one in a thousand each, DN.
-    pub fn span_dn(&self) -> f64 {
-        let all = || self.takes.iter().flat_map(|take| &take.signal_dn).filter(|signal| signal.is_finite());
-        let every = (all().count() / SPANNING).max(1);
-        let mut some: Vec<f32> = all().step_by(every).copied().collect();
-        some.sort_unstable_by(f32::total_cmp);
-        let few = some.len() / 1000;
-        let (darkest, brightest) = (some.get(few), some.get(some.len().wrapping_sub(few + 1)));
-        darkest.zip(brightest).map_or(0.0, |(&darkest, &brightest)| f64::from(brightest - darkest))
-    }
-
     /// Whether `pixel` tells its constant light from the ambient light: where the target moves, or the camera's light is once off.
     pub fn tells_constant(&self, pixel: usize) -> bool {
         self.light.is_once_off || self.target[pixel] && self.light.moves
@@ -361,7 +352,9 @@ impl Data {
     /// The same with another mask, a pixel each.
     #[must_use]
     pub fn with_target(&self, target: Vec<bool>) -> Self {
-        Self { target, ..self.clone() }
+        let mut takes = self.takes.clone();
+        at_one_frequency(&mut takes, &target);
+        Self { target, takes, ..self.clone() }
     }
 
     /// The same with these sets (numbers over all recordings) left out; nothing where there are none.

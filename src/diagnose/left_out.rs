@@ -1,7 +1,7 @@
 //! What is left out before anything is looked for: pixels with noise of their own, and sets that are unlike their neighbours.
 
 use super::data::Data;
-use super::fit::{Fit, fit};
+use super::fit::{Fit, fit, fit_until};
 use super::noise::Noise;
 use super::noisy_pixels::noisy_pixels;
 use super::settle::outlying;
@@ -52,16 +52,27 @@ impl LeftOut {
     }
 
     /// `data` without what is to be left out of it beside the effects of `fitted`, where those are other sets: a strong effect hides outliers, and may look like some. Where
-    /// nothing is named, no set is.
-    pub fn beside(&self, data: &Data, fitted: &Fit, noise: Noise) -> Option<(Data, Self)> {
+    /// nothing is named, no set is. Where all `is_explained` as it is, sets that are no outliers are not missed.
+    pub fn beside(
+        &self,
+        data: &Data,
+        fitted: &Fit,
+        noise: Noise,
+        is_explained: bool,
+    ) -> Option<(Data, Self)> {
         let quiet = without_pixels(data, &self.noisy);
         let quiet = quiet.as_ref().unwrap_or(data);
         let outlying = match &fitted.pieces[..] {
             [] => Vec::new(),
             _ if self.outlying.is_empty() => outlying(&fitted.series),
-            pieces => outlying(&fit(quiet, Some(fitted), pieces.to_vec(), noise, &|_| true).series),
+            // As the fit without them has them.
+            pieces => {
+                outlying(&fit_until(quiet, fitted, pieces.to_vec(), noise, &|_| true, f64::INFINITY).series)
+            }
         };
-        (outlying != self.outlying).then(|| {
+        let has_more = outlying.iter().any(|set| !self.outlying.contains(set));
+        let are_others = has_more || !is_explained && outlying != self.outlying;
+        are_others.then(|| {
             let fewer = quiet.without(&outlying).unwrap_or_else(|| quiet.clone());
             (fewer, Self::of(data, self.noisy.clone(), outlying))
         })

@@ -7,7 +7,7 @@ use super::fit::Fit;
 use super::in_order::joined;
 use super::random::CLUSTER_NATS;
 use super::set_errors::Jitter;
-use super::whiten::whiten;
+use super::whiten::{WINSOR, whiten};
 use nalgebra::{Matrix3, Vector3};
 
 /// Variance of the noise at a signal, DN², and what frames are off by at random.
@@ -28,6 +28,12 @@ impl Noise {
     pub fn times(self, many: f64) -> Self {
         let [floor, slope, square] = [self.floor, self.slope, self.square].map(|part| many * part);
         Self { floor, slope, square, ..self }
+    }
+
+    /// Whether its variance is that of `other` but for a thousandth, in the dark and in the light.
+    pub fn is_near(self, other: Self) -> bool {
+        let ratio = |signal_dn: f64| self.variance(signal_dn) / other.variance(signal_dn);
+        [0.0, 1e3].into_iter().all(|signal_dn| (ratio(signal_dn) - 1.0).abs() < 1e-3)
     }
 
     /// One over the variance.
@@ -142,7 +148,7 @@ const CHUNKS: usize = 64;
 const BINS: usize = 48;
 
 /// What the residuals of `fit` show beyond the noise that was `stated`: their squares over the signal, by least squares, no part less than
-/// was stated. Beside the noise `known` so far they are looked at first, and then beside what they showed: what is far beyond the noise does not count in full.
+/// was stated. Beside the noise `known` so far they are looked at first, and then beside what they showed: what is far beyond the noise does not count.
 pub fn beyond(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let mut found = seen_beside(data, fit, known, stated);
     for _ in 1..LOOKS {
@@ -151,8 +157,11 @@ pub fn beyond(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     found
 }
 
+/// Mean square of normal deviates that are less than [`WINSOR`]: 1 - 2 k p(k) / (2 P(k) - 1).
+const NEAR: f64 = 0.998_929;
+
 /// How often residuals are looked at, each time beside the noise that they showed the time before.
-const LOOKS: usize = 4;
+const LOOKS: usize = 8;
 
 /// The same, beside the noise `known`.
 fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
@@ -162,9 +171,10 @@ fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let add = |mut bins: Vec<[f64; 3]>, &(take, index): &(usize, usize)| {
         let base = tangents.base(take, index);
         let (roots, residuals) = whiten(data, take, index, &base, known);
-        for ((&signal, residual), _) in
-            base.iter().zip(residuals).zip(&roots).filter(|(_, root)| **root > 0.0)
-        {
+        // A few samples that are far off (pixels that were hit) are no noise of all.
+        let is_near = |(_, residual): &(&f64, f64)| residual.abs() < WINSOR;
+        let seen = base.iter().zip(residuals).zip(&roots).filter(|(_, root)| **root > 0.0);
+        for (&signal, residual) in seen.map(|(of, _)| of).filter(is_near) {
             let place = (signal.max(0.0) / full_scale_dn).sqrt() * BINS as f64;
             let [count, signals, squares] = &mut bins[(place as usize).min(BINS - 1)];
             *count += 1.0;
@@ -184,7 +194,7 @@ fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let bins = joined(&frames, chunk, of_chunk, join).unwrap_or_else(none);
     let points = bins.into_iter().filter(|bin| bin[0] > 0.0).map(|[count, signals, squares]| {
         let signal = signals / count;
-        let (variance, ratio) = (known.weight(signal).recip(), squares / count);
+        let (variance, ratio) = (known.weight(signal).recip(), squares / (count * NEAR));
         // The squares scatter by the variance that there is.
         let scatter = variance * ratio.max(1.0);
         let more = ratio * variance - stated.weight(signal).recip();

@@ -259,7 +259,7 @@ mod tests {
         acting: &Acting,
     ) -> bool {
         let memory = |chain: &Chain| Memory {
-            before: chain.looks_back().then(|| chain.remember([moment; 2], &[])),
+            before: chain.looks_back().then(|| chain.remember([moment; 3], &[])),
             ..Memory::default()
         };
         let [base, other] = [chain, changed].map(|chain| chain.expose(moment, memory(chain)).signal_dn);
@@ -293,7 +293,7 @@ mod tests {
                 values[number] += step;
                 let more = Active { effect, values };
                 let changed = chain_of(&[fitted(), vec![more.clone()]].concat());
-                let before = changed.looks_back().then(|| chain.remember([moment; 2], &[]));
+                let before = changed.looks_back().then(|| chain.remember([moment; 3], &[]));
                 let start = chain.begin(moment, Memory { before, ..Memory::default() });
                 let base = chain.expose(moment, Memory::default()).signal_dn;
                 let mut patterns = Patterns::new(&chain, &base, start.clone(), chain.stations(&start));

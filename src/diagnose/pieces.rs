@@ -150,8 +150,8 @@ const GROUPINGS: [(&str, &[Grouping]); 7] = [
 ];
 /// So many frames a set are many.
 const MANY_FRAMES: usize = 16;
-/// Effects that start with a corner, and the values at which they are tried.
-const FINITE: [(&str, &[f64]); 1] = [("saturation", &[0.3, 0.4, 0.5, 0.6, 0.7, 0.8])];
+/// What starts with a corner: it is tried where it would show, at several values.
+const FINITE: &str = "saturation";
 
 /// A converter's error of which the recordings do not see a whole period is smooth: what they see of it is a response, too, and so many smooth
 /// curves are the response's for one of a converter.
@@ -266,8 +266,11 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
 }
 
 fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<Variant> {
-    if let Some((_, values)) = FINITE.iter().find(|(name, _)| *name == effect.name) {
-        let piece = |&value: &f64| Piece {
+    let full_scale_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
+    if effect.name == FINITE {
+        let (least, most) = effect.parameters[0].bounds;
+        let missing = |full_dn: f64| (1.0 - full_dn / full_scale_dn).clamp(least, most);
+        let piece = |value: f64| Piece {
             effect,
             values: vec![value],
             free: vec![0],
@@ -275,7 +278,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
             finite: true,
             included: Vec::new(),
         };
-        return values.iter().map(|value| Variant { pieces: vec![piece(value)], rarity: 1.0 }).collect();
+        let values = data.full_wells_dn().into_iter().map(missing);
+        return values.map(|value| Variant { pieces: vec![piece(value)], rarity: 1.0 }).collect();
     }
     let find = |is: &dyn Fn(&Parameter) -> bool| effect.parameters.iter().position(is);
     let shape = find(&|parameter| parameter.is_shape() && !parameter.is_choice);
@@ -298,7 +302,6 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let unlikely = UNLIKELY.iter().find(|(name, _)| *name == effect.name && !data.assumed.camera);
     let usual = unlikely.map_or(1.0, |(_, rarity)| *rarity);
     let seen_dn = if effect.name == SMOOTH.0 { data.span_dn() } else { f64::INFINITY };
-    let full_scale_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
     let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));
     let ways =
@@ -333,7 +336,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
 /// The `values` from which the search for an effect of these `strengths` starts: one of each combination of sides, where it has any.
 fn sides(effect: &Effect, values: &[f64], strengths: &[usize]) -> Vec<Vec<f64>> {
     let mut sides = vec![values.to_vec()];
-    if WITH_SIDES.contains(&effect.name) {
+    let chosen = effect.parameters.iter().zip(values).find(|(parameter, _)| parameter.is_choice);
+    if WITH_SIDES.contains(&effect.name) && chosen.is_none_or(|(_, &chosen)| chosen == 0.0) {
         for &number in strengths {
             let mut beyond = sides.clone();
             beyond.iter_mut().for_each(|values| values[number] += BARELY * effect.parameters[number].typical);

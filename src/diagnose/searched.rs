@@ -43,6 +43,9 @@ pub fn searched(data: &Data, baseline: Fit, stated: Noise, of_included: f64) -> 
             break;
         }
         let more = beyond(data, &searched.found.fit, searched.noise, stated);
+        if more.noise.is_near(searched.noise) {
+            break;
+        }
         in_proportion = InProportion { ln_bayes: more.in_proportion, square_sigma: more.square_sigma };
         searched = search(data, unfitted(data, more.noise), more.noise, of_included);
     }

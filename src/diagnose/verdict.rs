@@ -1,6 +1,7 @@
 //! The answer as other programs read it: `vuris-verdict/1`.
 
 use super::alone::Alone;
+use super::backgrounds::counts_at_hz;
 use super::bounds::is_bounded;
 use super::conclusion::Verdict;
 use super::data::Data;
@@ -15,6 +16,7 @@ use super::mismatch::Place;
 use super::next::next;
 use super::noise::Noise;
 use super::noise::measured;
+use super::pass::THRESHOLD;
 use super::pieces::{OF_NEIGHBOURS, OF_STILL_SCENES};
 use super::power_at_random::detectable_at_random;
 use super::random::JITTERS;
@@ -177,12 +179,14 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     let mut judgement = judge(fewer.as_ref().unwrap_or(data), baseline, noise);
     // Sets that random errors make unlike others are no outliers.
     let is_settled = judgement.verdict == Verdict::Clean || !judgement.random.is_empty();
-    let beside = if is_settled { None } else { left_out.beside(data, &judgement.fit, noise) };
+    let is_explained = judgement.verdict == Verdict::Explained;
+    let beside = || left_out.beside(data, &judgement.fit, noise, is_explained);
+    let beside = if is_settled { None } else { beside() };
     if let Some((beside, left)) = beside {
         let second = judge(&beside, unfitted(&beside, noise), noise);
         // What explained without these sets is not given up for something else.
         let is_known = |named: &Named| judgement.named.iter().any(|other| other.name == named.name);
-        let are_known = judgement.verdict != Verdict::Explained || second.named.iter().all(is_known);
+        let are_known = !is_explained || second.named.iter().all(is_known);
         if second.verdict == Verdict::Explained && are_known && !is_bounded(&second.fit) {
             (judgement, fewer, left_out) = (second, Some(beside), left);
         }
@@ -200,6 +204,7 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     answer.provenance["pixels_left_out"] = json!(left_out.pixels);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     answer.provenance["overstated"] = json!(overstated);
+    answer.provenance["background_counts_at_hz"] = json!(counts_at_hz(&data.takes));
     Diagnosis { judgement, held_out, overstated, left_out, answer, geometry: data.geometry() }
 }
 
@@ -247,6 +252,8 @@ fn answer(data: &Data, judgement: &Judgement, held_out: &HeldOut) -> Answer {
     let nats = judgement.places.iter().map(|place| place.ln_bayes).fold(of_any(&found.alone), f64::max);
     let nats = named.iter().map(|named| named.ln_bayes).fold(nats, f64::max);
     let is_clean = *verdict == Verdict::Clean;
+    // What tangents promised and no fit kept is none.
+    let nats = if is_clean { nats.min(THRESHOLD) } else { nats };
     // What tangents at the baseline did not show may show where other effects are.
     let is_named = |name: &str| named.iter().any(|named| named.name == name);
     let seen = |place: &Place| located(data, judgement, place);

@@ -5,7 +5,7 @@ use super::noise::Noise;
 use crate::widest::widest;
 
 /// Residuals beyond so many standard deviations count as that many.
-const WINSOR: f64 = 4.0;
+pub const WINSOR: f64 = 4.0;
 
 /// Roots of the weights of a frame's pixels, 0 where a sample does not count, and the residual times them.
 pub fn whiten(data: &Data, take: usize, index: usize, base: &[f64], noise: Noise) -> (Vec<f64>, Vec<f64>) {

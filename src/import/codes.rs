@@ -3,8 +3,10 @@
 use crate::problem::Problem;
 use std::fmt::Display;
 
-/// Bits of the widest ADC that the format and the hardware take.
-pub const MOST_ADC_BITS: u32 = 16;
+/// Bits of the widest codes that a recording takes; the hardware takes 16.
+pub const MOST_ADC_BITS: u32 = 24;
+/// Of an ADC whose bits nobody knows, codes of so many are taken.
+const USUAL_BITS: u32 = 16;
 
 /// How a file's numbers become codes: `number · scale + add`, and what may come out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,7 +15,7 @@ pub struct Levels {
     pub scale: Option<f64>,
     /// Whole codes that are added afterwards.
     pub add: f64,
-    /// Bits of the ADC, 1 to 16, where they are known: no code may be above 2^bits − 1.
+    /// Bits of the ADC, 1 to 24, where they are known: no code may be above 2^bits − 1.
     pub adc_bits: Option<u32>,
     /// The code from which on the camera saturates, where that is below 2^bits − 1: such codes become 2^bits − 1, by
     /// which the format and the hardware know a clipped sample. Needs [`Levels::adc_bits`].
@@ -26,7 +28,7 @@ impl Levels {
 
     /// The greatest code that may come out.
     pub fn greatest(&self) -> u32 {
-        (1 << self.adc_bits.unwrap_or(MOST_ADC_BITS).min(MOST_ADC_BITS)) - 1
+        (1 << self.adc_bits.unwrap_or(USUAL_BITS).min(MOST_ADC_BITS)) - 1
     }
 
     /// The code of `number`.
@@ -66,7 +68,7 @@ impl Levels {
     fn range(&self) -> impl Display {
         let why = match self.adc_bits {
             Some(bits) => format!("--adc-bits {bits}"),
-            None => format!("{MOST_ADC_BITS} bits: the widest ADC that a recording takes"),
+            None => format!("{USUAL_BITS} bits; --adc-bits says if there are more"),
         };
         format!("codes from 0 to {} ({why})", self.greatest())
     }

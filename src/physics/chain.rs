@@ -113,12 +113,13 @@ impl Chain {
     }
 
     /// What light brought in the frame before, which is one of [`Moment::before`], with its `deviates`.
-    pub fn remember(&self, [evenly, again]: [Moment; 2], deviates: &[f64]) -> Before {
+    pub fn remember(&self, [evenly, again, kept]: [Moment; 3], deviates: &[f64]) -> Before {
         let arrive =
             |moment| self.arrive(moment, Memory { deviates: deviates.to_vec(), ..Memory::default() });
         let evenly_dn = arrive(evenly);
         let again_dn = if again == evenly { evenly_dn.clone() } else { arrive(again) };
-        Before { evenly_dn, again_dn }
+        let kept_dn = if kept == again { again_dn.clone() } else { arrive(kept) };
+        Before { evenly_dn, again_dn, kept_dn }
     }
 
     /// What light brings to the pixels at `moment`, before charge goes anywhere, DN.

@@ -49,19 +49,21 @@ impl Moment {
     }
 
     /// The frame before frame number `index` of those that `moment` gives. Before a set's first one it is the one that a camera
-    /// takes then which runs on evenly, and that of a camera which takes the same steps set after set.
-    pub fn before(index: usize, moment: impl Fn(usize) -> Self) -> [Self; 2] {
+    /// takes then which runs on evenly, that of a camera which takes the same steps set after set, and that of one which rests between sets:
+    /// the set before's last one, wherever the target was then (of a recording's first set, its own last step).
+    pub fn before(index: usize, moment: impl Fn(usize) -> Self) -> [Self; 3] {
         let first = moment(index);
         if first.frame > 0 {
-            return [moment(index - 1); 2];
+            return [moment(index - 1); 3];
         }
         let (second, last) = (index + usize::from(first.frames > 1), index + first.frames.max(1) - 1);
         let evenly = Self { step_rad: 2.0 * first.step_rad - moment(second).step_rad, ..first };
-        [evenly, moment(last)].map(|frame| Self {
+        let [evenly, again] = [evenly, moment(last)].map(|frame| Self {
             in_set_s: first.in_set_s - first.frame_period_s,
             time_s: first.time_s - first.frame_period_s,
             ..frame
-        })
+        });
+        [evenly, again, index.checked_sub(1).map_or(again, moment)]
     }
 }
 
@@ -81,6 +83,8 @@ pub struct Before {
     pub evenly_dn: PerPixel,
     /// In a camera that takes the same steps set after set.
     pub again_dn: PerPixel,
+    /// In a camera that rests between sets.
+    pub kept_dn: PerPixel,
 }
 
 /// A frame in the making. Effects change what stands here when their place comes.

@@ -1,5 +1,6 @@
 //! `camera.toml`: what the simulation of a camera knows, and which effects it takes into account.
 
+use super::codes::MOST_BITS;
 use crate::fields::{self, Fields};
 use crate::frames::Geometry;
 use crate::problem::{Problem, Result};
@@ -24,9 +25,9 @@ pub fn effect_name(text: &str) -> &str {
 pub struct Camera {
     /// The sensor's pixels, each side 1 to 65536.
     pub geometry: Geometry,
-    /// Bits of a raw code, 8 to 16.
+    /// Bits of a raw code, 8 to 24.
     pub adc_bits: u32,
-    /// Code at no light, DN, 0 to 65535.
+    /// Code at no light, DN, 0 to the greatest code.
     pub pedestal_dn: f64,
     /// Electrons a code, above 0.
     pub gain_e_per_dn: f64,
@@ -106,9 +107,9 @@ impl Camera {
         };
         // Without the section there are no effects either.
         check_physics(file, included.as_deref().unwrap_or_default(), &effects)?;
-        let adc_bits = sensor.integer("adc_bits", 8..=16)? as u32;
-        let pedestal_dn = sensor.number("pedestal_dn", 0.0..=65_535.0, "DN")?;
+        let adc_bits = sensor.integer("adc_bits", 8..=i64::from(MOST_BITS))? as u32;
         let full_scale = full_scale(adc_bits);
+        let pedestal_dn = sensor.number("pedestal_dn", 0.0..=f64::from(full_scale), "DN")?;
         if pedestal_dn >= f64::from(full_scale) {
             return Err(sensor
                 .refuse(

@@ -5,8 +5,8 @@ use crate::frames::{Geometry, RawSets};
 use crate::problem::{Problem, Result};
 use std::path::{Path, PathBuf};
 
-/// Bits of the widest ADC that the hardware takes.
-pub(super) const MOST_BITS: u32 = 16;
+/// Bits of the widest codes that are read: single precision holds them, and sums of frames of 16 bits are among them. The hardware takes 16.
+pub(super) const MOST_BITS: u32 = 24;
 
 /// Reads the raw codes at `path`, in agreement with `recording.toml`'s frames a set and with the camera.
 pub(super) fn read_frames(
@@ -38,7 +38,7 @@ pub(super) fn read_frames(
         Some((camera, path)) => {
             (camera.adc_bits, format!("sensor.adc_bits = {} in {}", camera.adc_bits, path.display()))
         }
-        None => (MOST_BITS, "the widest ADC that the hardware takes".to_owned()),
+        None => (MOST_BITS, "the widest codes that are read".to_owned()),
     };
     let largest = (1u32 << bits) - 1;
     if let Some(index) = raw.codes().iter().position(|&code| code > largest) {

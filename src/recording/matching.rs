@@ -19,6 +19,8 @@ pub const STEP_TOLERANCE_RAD: f64 = 1e-4;
 
 /// Steps that a refusal lists before it says how many there are.
 const MOST_STEPS_SHOWN: usize = 40;
+/// Bits of the widest ADC that the hardware takes.
+const HARDWARE_BITS: u32 = 16;
 
 /// Which scheme a recording is processed with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -41,6 +43,12 @@ pub fn pipeline_for(
     choice: SchemeChoice,
 ) -> Result<(Pipeline, Vec<String>)> {
     let Steps { scheme, frames_per_step, order } = steps_of(recording, base, choice)?;
+    let bits = recording.adc_bits();
+    if bits > HARDWARE_BITS {
+        return Err(Problem::in_file(&recording.folder, format_args!("its codes have {bits} bits"))
+            .expected(format_args!("{HARDWARE_BITS} at most: the hardware takes no more"))
+            .remedy("shift the codes down; `vuris diagnose` takes them as they are"));
+    }
     let source = format!("{} adapted to {}", base.name, recording.folder.display());
     let pipeline = base.adapted(&source, |specification| {
         let Specification { sensor, modulation, unwrapping, .. } = specification;

@@ -113,7 +113,7 @@ impl Recording {
         self.raw.geometry()
     }
 
-    /// Bits of the ADC: the camera's, else the least of 8 to 16 that hold the largest code.
+    /// Bits of the ADC: the camera's, else the least of 8 to 24 that hold the largest code.
     pub fn adc_bits(&self) -> u32 {
         match &self.camera {
             Some(camera) => camera.adc_bits,

@@ -67,7 +67,7 @@ fn write(recording: &Recording, own: Option<&Camera>, folder: &Path) -> Result<(
             .map_err(|error| Problem::io(&folder.join(name), "write", &error))
     };
     let shape = [raw.sets(), raw.frames_per_set(), geometry.height, geometry.width];
-    // A code beyond 16 bits must be refused below, not saturated here.
+    // A code that is too wide must be refused below, not saturated here.
     let bits = u32::BITS - raw.codes().iter().max().map_or(0, |code| code.leading_zeros());
     array("frames.npy", &shape, Numbers::codes(bits.max(16), raw.codes().iter().map(|&code| code.into())))?;
     if let Some(mask) = &recording.mask {
@@ -253,12 +253,12 @@ mod tests {
         let refusal = write_recording(&bad, &campaign.path().join("bad")).unwrap_err().to_string();
         assert!(refusal.contains("modulation.frequency_hz"), "{refusal}");
         let mut codes = recording(None).raw.codes().to_vec();
-        codes[5] = 70_000;
+        codes[5] = 20_000_000;
         let raw = RawSets::new(recording(None).geometry(), 4, codes).unwrap();
         let refusal = write_recording(&Recording { raw, ..recording(None) }, &campaign.path().join("bad"))
             .unwrap_err()
             .to_string();
-        assert!(refusal.contains("code 70000 at set 0, frame 0, row 1, column 2"), "{refusal}");
+        assert!(refusal.contains("code 20000000 at set 0, frame 0, row 1, column 2"), "{refusal}");
         write_camera(&camera(), campaign.path()).unwrap();
         assert!(write_camera(&camera(), campaign.path()).is_err());
         assert_eq!(fs::read_dir(campaign.path()).unwrap().count(), 2);

@@ -1,6 +1,6 @@
 //! From light to charge to codes, frame after frame.
 
-use super::flaws::{Flaw, Hook};
+use super::flaws::{Flaw, Hook, is_emptied};
 use super::waveform::Waveform;
 use super::world::{Known, Moment, Ray, World};
 use crate::recording::Kind;
@@ -62,7 +62,10 @@ impl Exposure<'_> {
             match flaw.mechanism.hook {
                 Hook::Image(change) => change(flaw, &moment, &self.world.scene, &mut image),
                 Hook::Lag(change) => {
-                    let last = before.get_or_insert_with(|| self.before_first(take, set));
+                    let last = before.get_or_insert_with(|| match is_emptied(flaw) {
+                        true => vec![0.0; image.len()],
+                        false => self.before_first(take, set),
+                    });
                     change(flaw, last, &mut image);
                 }
                 _ => {}
@@ -129,6 +132,7 @@ impl Exposure<'_> {
                 sees_target: pixel.sees_target,
                 range_m,
                 amplitude_e: pixel.amplitude_e * falloff,
+                constant_e: pixel.constant_e * falloff,
                 delay_rad: pixel.delay_rad,
                 echo: None,
                 extra_e: 0.0,
@@ -142,7 +146,7 @@ impl Exposure<'_> {
                 let delay_rad = moment.gate_rad - way_rad * range_m - ray.delay_rad;
                 amplitude_e * self.waveform.at(delay_rad)
             };
-            let direct_e = through(ray.amplitude_e, ray.range_m) + pixel.constant_e * falloff;
+            let direct_e = through(ray.amplitude_e, ray.range_m) + ray.constant_e;
             let echo_e = ray.echo.map_or(0.0, |(amplitude_e, range_m)| through(amplitude_e, range_m));
             let all_e = moment.light * (direct_e + echo_e) + moment.ambient * pixel.ambient_e + ray.extra_e;
             moment.gain * all_e

@@ -119,6 +119,8 @@ pub struct Ray {
     pub range_m: f64,
     /// Amplitude of the fundamental, electrons.
     pub amplitude_e: f64,
+    /// Charge of the light that the gate does not divide, electrons.
+    pub constant_e: f64,
     /// Delay beside the way's, rad.
     pub delay_rad: f64,
     /// Light that comes a second way: its amplitude in electrons, and its one-way range in m.

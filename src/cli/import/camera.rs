@@ -2,6 +2,7 @@
 
 use super::super::option::in_range;
 use crate::frames::Geometry;
+use crate::import::MOST_ADC_BITS;
 use crate::problem::{Problem, Result};
 use crate::recording::Camera;
 use clap::Args;
@@ -15,7 +16,7 @@ pub(super) struct CameraArguments {
     #[arg(long, value_name = "camera.toml",
         conflicts_with_all = ["adc_bits", "pedestal_dn", "gain_e_per_dn", "read_noise_e", "focal_length_px"])]
     camera: Option<PathBuf>,
-    /// Bits of the ADC, 8 to 16; a code beyond them is refused. They are kept in camera.toml only, for which the next four
+    /// Bits of the ADC, 8 to 24; a code beyond them is refused. They are kept in camera.toml only, for which the next four
     /// options are needed, too
     #[arg(long, value_name = "BITS")]
     adc_bits: Option<u32>,
@@ -68,13 +69,14 @@ impl CameraArguments {
         if let Some(file) = &self.camera {
             return Ok(Known::File(Box::new(Camera::read(file)?)));
         }
-        if let Some(bits) = self.adc_bits.filter(|bits| !(8..=16).contains(bits)) {
-            return Err(Problem::at("--adc-bits", bits).expected("a whole number from 8 to 16"));
+        if let Some(bits) = self.adc_bits.filter(|bits| !(8..=MOST_ADC_BITS).contains(bits)) {
+            return Err(Problem::at("--adc-bits", bits)
+                .expected(format_args!("a whole number from 8 to {MOST_ADC_BITS}")));
         }
         // Ranges are those of the format.
         let fields: [(&str, Option<f64>, RangeInclusive<f64>); 5] = [
-            ("--adc-bits", self.adc_bits.map(f64::from), 8.0..=16.0),
-            ("--pedestal-dn", self.pedestal_dn, 0.0..=65_535.0),
+            ("--adc-bits", self.adc_bits.map(f64::from), 8.0..=f64::from(MOST_ADC_BITS)),
+            ("--pedestal-dn", self.pedestal_dn, 0.0..=f64::from(u32::MAX >> (u32::BITS - MOST_ADC_BITS))),
             ("--gain-e-per-dn", self.gain_e_per_dn, 1e-9..=1e9),
             ("--read-noise-e", self.read_noise_e, 0.0..=1e9),
             ("--focal-length-px", self.focal_length_px, 1e-3..=1e9),

@@ -2,12 +2,16 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
-/// Relative error of the position.
+/// Relative error of the position. The carriage moves as fast as it is commanded (0), or, controlled by this very encoder, by this factor faster (1), which all
+/// recordings take for an error of the modulation frequency.
 pub static EFFECT: Effect = Effect {
     name: "encoder_scale",
     sentence: "The encoder's scale is off: the target's true position is the reading times a factor.",
     reference: "d = (1 + eps) reading",
-    parameters: &[Parameter::strength("relative", "1", 0.0, (-0.05, 0.05), 1e-3)],
+    parameters: &[
+        Parameter::strength("relative", "1", 0.0, (-0.06, 0.06), 1e-3),
+        Parameter::choice("controls_carriage", "1", &[0.0, 1.0]),
+    ],
     place: Place::Encoder,
     chance: Chance::None,
     looks_back: false,
@@ -15,5 +19,9 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    exposure.position_m *= 1.0 + values[0];
+    let factor = 1.0 + values[0];
+    exposure.position_m *= factor;
+    if values[1] > 0.5 {
+        exposure.velocity_m_s *= factor;
+    }
 }

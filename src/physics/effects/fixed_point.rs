@@ -10,7 +10,7 @@ pub static EFFECT: Effect = Effect {
     name: "fixed_point",
     sentence: "The camera's own arithmetic cuts low bits off the codes: a bias of half a unit, and a staircase.",
     reference: "I -> 2^k floor(I / 2^k)",
-    parameters: &[Parameter::strength("bits_cut", "bit", 0.0, (0.0, 8.0), 2.0)],
+    parameters: &[Parameter::strength("bits_cut", "bit", 0.0, (0.0, 16.0), 2.0)],
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,

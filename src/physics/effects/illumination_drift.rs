@@ -2,13 +2,14 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
-/// Relative loss of the camera's own light by the time a warm-up takes, what it had lost when the recording began, and the time of a warm-up.
+/// Relative loss of the camera's own light by the time a warm-up takes, what it had lost when the recording began, and the time of a warm-up. Of light that falls
+/// evenly both the first and the last are large; there is none below no light.
 pub static EFFECT: Effect = Effect {
     name: "illumination_drift",
     sentence: "The power of the camera's own light drifts over minutes as it warms up.",
     reference: "A(t) = A (1 - k (1 - exp(-t/tau)))",
     parameters: &[
-        Parameter::strength("relative", "1", 0.0, (-0.8, 0.8), 0.03),
+        Parameter::strength("relative", "1", 0.0, (-20.0, 20.0), 0.03),
         Parameter::strength("relative_before", "1", 0.0, (-0.8, 0.8), 0.03).of_recording(),
         Parameter::shape("time_constant_s", "s", 30.0, (2.0, 2000.0), &[10.0, 60.0, 600.0]),
     ],
@@ -20,5 +21,5 @@ pub static EFFECT: Effect = Effect {
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let warm = 1.0 - libm::exp(-exposure.moment.time_s / values[2]);
-    exposure.scale_light(1.0 - values[1] - values[0] * warm);
+    exposure.scale_light((1.0 - values[1] - values[0] * warm).max(0.0));
 }

@@ -7,7 +7,7 @@ pub static EFFECT: Effect = Effect {
     name: "modulation_frequency_error",
     sentence: "The modulation frequency is not the one commanded, so all distances are scaled.",
     reference: "f -> f (1 + eps)",
-    parameters: &[Parameter::strength("relative", "1", 0.0, (-0.05, 0.05), 1e-3)],
+    parameters: &[Parameter::strength("relative", "1", 0.0, (-0.06, 0.06), 1e-3)],
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,

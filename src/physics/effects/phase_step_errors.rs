@@ -78,7 +78,7 @@ pub static EFFECT: Effect = Effect {
         step("setting_61_rad"),
         step("setting_62_rad"),
         step("setting_63_rad"),
-        Parameter::choice("settings_a_turn", "1", &[0.0, SETTINGS]),
+        Parameter::choice("settings_a_turn", "1", &[0.0, SETTINGS, MOST_SETTINGS]),
     ],
     place: Place::Clock,
     chance: Chance::None,
@@ -86,7 +86,9 @@ pub static EFFECT: Effect = Effect {
     act: Act::Code(act),
 };
 
+/// Steps of 30 degrees, or six bits of a delay line.
 const SETTINGS: f64 = 12.0;
+const MOST_SETTINGS: f64 = 64.0;
 /// Closer than this (in settings) to the middle between two settings is the middle: files round a phase offset.
 const MIDDLE: f64 = 1e-6;
 

@@ -13,8 +13,9 @@ pub const MECHANISMS: &[Mechanism] = &[
     Mechanism::known("phase_drift", "rad", 0.01, 1.0, Hook::Clock(phase_drift), 't'),
     Mechanism::known("clock_jitter", "rad", 0.005, 0.3, Hook::Clock(clock_jitter), 'j'),
     Mechanism::known("timing_jitter_of_frames", "s", 5e-4, 5e-3, Hook::Clock(timing_jitter), 'j'),
-    Mechanism::known("modulation_frequency_error", "1", 1e-3, 0.1, Hook::Clock(frequency_error), 'e'),
-    Mechanism::known("encoder_scale", "1", 1e-3, 0.1, Hook::Clock(encoder_scale), 'e'),
+    Mechanism::known("modulation_frequency_error", "1", 1e-3, 0.05, Hook::Clock(frequency_error), 'e'),
+    Mechanism::known("encoder_scale", "1", 1e-3, 0.05, Hook::Clock(encoder_scale), 'e'),
+    Mechanism::known("encoder_offset", "m", 5e-3, 0.1, Hook::Clock(encoder_offset), 'e'),
     Mechanism::known("encoder_cyclic", "m", 1e-3, 0.02, Hook::Clock(encoder_cyclic), 'e'),
     Mechanism::known("frame_gain", "1", 0.005, 0.3, Hook::Clock(frame_gain), 'a'),
     Mechanism::known("illumination_droop", "1", 0.01, 0.5, Hook::Clock(illumination_droop), 'a'),
@@ -64,6 +65,13 @@ fn encoder_scale(flaw: &Flaw, _: &Take, moment: &mut Moment) {
     moment.position_m /= factor;
     moment.began_m /= factor;
     moment.velocity_m_s /= factor;
+}
+
+/// The reading's zero is not the camera: the target is nearer or farther by a constant.
+fn encoder_offset(flaw: &Flaw, _: &Take, moment: &mut Moment) {
+    let offset_m = flaw.sign(0) * flaw.size;
+    moment.position_m += offset_m;
+    moment.began_m += offset_m;
 }
 
 /// The reading is off by a wave over the position, as from an eccentric wheel.

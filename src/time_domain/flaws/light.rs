@@ -12,6 +12,7 @@ pub const MECHANISMS: &[Mechanism] = &[
     Mechanism::known("multipath_interference", "1", 0.01, 0.5, Hook::Ray(multipath), 'p'),
     Mechanism::known("mixed_pixels", "1", 0.05, 0.5, Hook::Ray(mixed_pixels), 'p'),
     Mechanism::known("lens_scatter", "1", 0.005, 0.3, Hook::Image(lens_scatter), 'p'),
+    Mechanism::known("illumination_baseline", "m", 0.05, 0.25, Hook::Ray(illumination_baseline), 'e'),
     Mechanism::known("intensity_related_phase", "rad", 0.01, 0.5, Hook::Ray(intensity_related_phase), 'i'),
     Mechanism::known("electrical_crosstalk", "DN", 1.0, 100.0, Hook::Ray(electrical_crosstalk), 'a'),
 ];
@@ -36,6 +37,28 @@ fn multipath(flaw: &Flaw, _: &Moment, _: &Scene, ray: &mut Ray) {
         let amplitude_e = flaw.size * ray.amplitude_e * (ray.range_m / out_m).powi(2);
         ray.echo = Some((amplitude_e, 0.5 * (ray.range_m + out_m)));
     }
+}
+
+/// Four emitters stand around the lens: each one's light goes out by a way of its own, and spreads over that.
+fn illumination_baseline(flaw: &Flaw, _: &Moment, scene: &Scene, ray: &mut Ray) {
+    let Geometry { width, height } = scene.geometry;
+    let across = ray.column as f64 - 0.5 * (width as f64 - 1.0);
+    let down = ray.row as f64 - 0.5 * (height as f64 - 1.0);
+    // The sine of the angle to the axis, a pixel off it.
+    let obliquity = scene.pixels[ray.pixel].obliquity;
+    let sine = (1.0 - obliquity.powi(-2)).max(0.0).sqrt() / across.hypot(down).max(1e-9);
+    let range_m = ray.range_m;
+    let out_m = [across, -across, down, -down].map(|along| {
+        let squared_m2 = range_m * range_m - 2.0 * range_m * flaw.size * sine * along + flaw.size * flaw.size;
+        squared_m2.sqrt()
+    });
+    let lights = out_m.map(|out_m| (range_m / out_m).powi(2));
+    let light: f64 = lights.iter().sum();
+    let way_m = out_m.iter().zip(&lights).map(|(out_m, light)| out_m * light).sum::<f64>() / light;
+    ray.amplitude_e *= 0.25 * light;
+    ray.constant_e *= 0.25 * light;
+    // What comes by a longer way is less, and turns the sum less.
+    ray.range_m = 0.5 * (range_m + way_m);
 }
 
 /// Each side of the target ends within a pixel: one that sees mostly the target, and some background, or the other way round.

@@ -5,7 +5,7 @@ mod clock;
 mod light;
 mod outside;
 
-pub use charge::cubic_part;
+pub use charge::{cubic_part, is_emptied};
 pub use clock::{flicker, light_warm_up_s, phase_warm_up_s};
 pub use light::{coupled_e, coupled_rad, ringing};
 

@@ -1,0 +1,141 @@
+//! `vuris diagnose` on what is known by one form, and comes in another: wells that few samples fill, shifters of many settings, encoders that control what they
+//! measure, noise of few samples.
+
+mod diagnosed;
+mod rewritten;
+
+use diagnosed::{concealed, names, parameter, simulated, verdict};
+use rewritten::rewrite;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use vuris::frames::RawSets;
+use vuris::recording::{Recording, write_recording};
+
+fn campaign(folder: &Path, recordings: &str, effects: &[&str]) -> PathBuf {
+    let own = ["--size", "16x12", "--seed", "31", "--recordings", recordings];
+    simulated(folder.join("campaign"), &[&own[..], &concealed(effects)].concat())
+}
+
+/// What is said where an `effect` is concealed.
+fn verdict_of(recordings: &str, effect: &str) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    verdict(&campaign(folder.path(), recordings, &[effect]))
+}
+
+/// A number that looks as if it were drawn, from 0 to 1, of a sample's or a setting's own.
+fn drawn(places: &[usize]) -> f64 {
+    let factors = [12.9898, 78.233, 37.719, 4.581, 91.17];
+    let mixed: f64 = places.iter().zip(factors).map(|(&place, factor)| place as f64 * factor).sum();
+    (mixed.sin() * 43_758.545_3).rem_euclid(1.0)
+}
+
+/// Wherever the brightest samples are: a well that clips a few in a thousand of them is found, and where it is full.
+#[test]
+fn a_well_that_few_samples_fill_is_found() {
+    const RECORDINGS: &str = "four-rail,wdft-rail";
+    let folder = tempfile::tempdir().unwrap();
+    let clean = campaign(folder.path(), RECORDINGS, &[]);
+    let recording = Recording::open(&clean.join("four-rail")).unwrap();
+    let camera = recording.camera.as_ref().unwrap();
+    let mut codes = recording.raw.codes().to_vec();
+    codes.sort_unstable();
+    for share in [0.002, 0.02] {
+        let code = f64::from(codes[((1.0 - share) * codes.len() as f64) as usize]);
+        let full_dn = f64::from(camera.full_scale()) - camera.pedestal_dn;
+        let missing = 1.0 - (code - camera.pedestal_dn) / full_dn;
+        let verdict = verdict_of(RECORDINGS, &format!("saturation:missing={missing:.4}"));
+        assert_eq!(names(&verdict), ["saturation"], "{share}: {verdict:#}");
+        let (found, sigma) = parameter(&verdict, "missing");
+        // The number of samples that are beyond it is whole, and its slope has steps: 4 DN.
+        assert!((found - missing).abs() < 1e-3 && sigma < 1e-3, "{share}: {found} +- {sigma}, not {missing}");
+    }
+}
+
+/// Of an encoder that controls the carriage a scale error is one of the modulation frequency, in whatever recording.
+#[test]
+fn an_encoder_that_controls_the_carriage_may_be_another_frequency() {
+    let verdict = verdict_of("wdft-rail,wdft-motion", "encoder_scale:relative=0.01,controls_carriage=1");
+    let both = ["encoder_scale", "modulation_frequency_error"];
+    let [name] = &names(&verdict)[..] else { panic!("{verdict:#}") };
+    assert!(both.contains(&&name[..]), "{verdict:#}");
+    let also = verdict["effects"][0]["also_possible"].as_array().unwrap();
+    assert!(both.iter().all(|other| other == name || also.contains(&json!(other))), "{verdict:#}");
+}
+
+/// A shifter of six bits has 64 settings, of which a sweep over the turn sees all.
+#[test]
+fn a_shifter_has_an_error_of_each_of_its_settings() {
+    let error = |setting: usize| 0.012 * (drawn(&[setting]) - 0.5);
+    let settings = (0..64).map(|setting| format!("setting_{setting}_rad={:.6}", error(setting)));
+    let settings = settings.chain(["settings_a_turn=64".to_owned()]).collect::<Vec<_>>().join(",");
+    let verdict = verdict_of("four-sweep,four-rail", &format!("phase_step_errors:{settings}"));
+    assert_eq!(names(&verdict), ["phase_step_errors"], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    assert_eq!(parameter(&verdict, "settings_a_turn").0, 64.0);
+}
+
+/// One sample in 500 is 80 DN off, whatever it shows: that is no noise of all.
+#[test]
+fn samples_that_are_hit_are_no_noise() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = campaign(folder.path(), "four-rail,wdft-motion", &[]);
+    rewrite(&campaign, |sample| {
+        let places = [sample.recording, sample.set, sample.frame, sample.row, sample.column];
+        let is_hit = drawn(&places) < 0.002;
+        let sign = if drawn(&[sample.set, sample.row, sample.column]) < 0.5 { 1.0 } else { -1.0 };
+        sample.code + if is_hit { 80.0 * sign } else { 0.0 }
+    });
+    let verdict = verdict(&campaign);
+    assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
+    assert!(names(&verdict).is_empty());
+}
+
+/// Charge waits in the pixels while the camera rests: before a set's first frame was the last one of the set before, wherever the target was then. That is no
+/// jitter.
+#[test]
+fn a_lag_over_the_pause_between_sets_is_no_jitter() {
+    let verdict = verdict_of("four-motion,wdft-rail", "image_lag:share=0.01,last_step_before_first=-2");
+    assert_eq!(names(&verdict), ["image_lag"], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    let (found, sigma) = parameter(&verdict, "share");
+    assert!((found - 0.01).abs() < 4.0 * sigma, "{found} +- {sigma}");
+}
+
+/// A texture that moves within the target's outline, which stays.
+#[test]
+fn a_texture_that_moves_is_named() {
+    let verdict = verdict_of("four-motion,wdft-motion", "lateral_motion:columns_a_metre=0.4,of_texture=1");
+    assert_eq!(names(&verdict), ["lateral_motion"], "{verdict:#}");
+    let (found, sigma) = parameter(&verdict, "columns_a_metre");
+    assert!((found - 0.4).abs() < 4.0 * sigma, "{found} +- {sigma}");
+}
+
+/// Nobody states how far the background is. At one frequency its pixels' own phases say it, and another frequency's are not asked.
+#[test]
+fn two_modulation_frequencies_are_clean_beside_a_background() {
+    const OTHER: &str = "four-motion";
+    let folder = tempfile::tempdir().unwrap();
+    let at = |frequency_hz: &str, recordings: &str| {
+        let own =
+            ["--size", "16x12", "--seed", "31", "--recordings", recordings, "--frequency-hz", frequency_hz];
+        simulated(folder.path().join(frequency_hz), &own)
+    };
+    let campaign = at("30e6", "four-sweep,four-rail");
+    let mut other = Recording::open(&at("40e6", OTHER).join(OTHER)).unwrap();
+    // The background is elsewhere than the simulator's: a quarter of a turn nearer, at this frequency.
+    let (pixels, frames) = (other.geometry().pixels(), other.raw.frames_per_set());
+    let codes = other.raw.codes();
+    let shifted = |at: usize| {
+        let (set, frame, pixel) = (at / pixels / frames, at / pixels % frames, at % pixels);
+        let seen = if other.sees_target(pixel) { frame } else { (frame + 1) % frames };
+        codes[(set * frames + seen) * pixels + pixel]
+    };
+    let codes: Vec<u32> = (0..codes.len()).map(shifted).collect();
+    assert!(codes != other.raw.codes());
+    other.raw = RawSets::new(other.geometry(), frames, codes).unwrap();
+    other.camera = None;
+    write_recording(&other, &campaign.join(OTHER)).unwrap();
+    let verdict = verdict(&campaign);
+    assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
+    assert_eq!(verdict["provenance"]["recordings"].as_array().unwrap().len(), 3, "{verdict:#}");
+}
