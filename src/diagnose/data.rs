@@ -352,9 +352,9 @@ impl Data {
     /// The same with another mask, a pixel each.
     #[must_use]
     pub fn with_target(&self, target: Vec<bool>) -> Self {
-        let mut takes = self.takes.clone();
-        at_one_frequency(&mut takes, &target);
-        Self { target, takes, ..self.clone() }
+        let mut data = Self { target, ..self.clone() };
+        at_one_frequency(&mut data.takes, &data.target);
+        data
     }
 
     /// The same with these sets (numbers over all recordings) left out; nothing where there are none.

@@ -181,8 +181,7 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     let is_settled = judgement.verdict == Verdict::Clean || !judgement.random.is_empty();
     let is_explained = judgement.verdict == Verdict::Explained;
     let beside = || left_out.beside(data, &judgement.fit, noise, is_explained);
-    let beside = if is_settled { None } else { beside() };
-    if let Some((beside, left)) = beside {
+    if let Some((beside, left)) = (!is_settled).then(beside).flatten() {
         let second = judge(&beside, unfitted(&beside, noise), noise);
         // What explained without these sets is not given up for something else.
         let is_known = |named: &Named| judgement.named.iter().any(|other| other.name == named.name);

@@ -1,10 +1,9 @@
 //! From the numbers that stand in a file to raw codes of the ADC.
 
 use crate::problem::Problem;
+use crate::recording::MOST_BITS;
 use std::fmt::Display;
 
-/// Bits of the widest codes that a recording takes; the hardware takes 16.
-pub const MOST_ADC_BITS: u32 = 24;
 /// Of an ADC whose bits nobody knows, codes of so many are taken.
 const USUAL_BITS: u32 = 16;
 
@@ -28,7 +27,7 @@ impl Levels {
 
     /// The greatest code that may come out.
     pub fn greatest(&self) -> u32 {
-        (1 << self.adc_bits.unwrap_or(USUAL_BITS).min(MOST_ADC_BITS)) - 1
+        (1 << self.adc_bits.unwrap_or(USUAL_BITS).min(MOST_BITS)) - 1
     }
 
     /// The code of `number`.

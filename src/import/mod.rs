@@ -14,7 +14,7 @@ mod raw;
 mod stack;
 mod tagged;
 
-pub use codes::{Levels, MOST_ADC_BITS};
+pub use codes::Levels;
 pub use cut::{Taking, recordings};
 pub use order::{each_file_once, natural_order};
 pub use pictures::{Channel, read_pictures};

@@ -6,7 +6,7 @@ use crate::problem::{Problem, Result};
 use std::path::{Path, PathBuf};
 
 /// Bits of the widest codes that are read: single precision holds them, and sums of frames of 16 bits are among them. The hardware takes 16.
-pub(super) const MOST_BITS: u32 = 24;
+pub const MOST_BITS: u32 = 24;
 
 /// Reads the raw codes at `path`, in agreement with `recording.toml`'s frames a set and with the camera.
 pub(super) fn read_frames(

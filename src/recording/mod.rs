@@ -19,6 +19,7 @@ mod table;
 mod write;
 
 pub use camera::{AXIAL_MOTION, BASELINE, Camera, INVERSE_SQUARE_FALLOFF, effect_name};
+pub use codes::MOST_BITS;
 pub use kind::Kind;
 pub use npy::{Codes, read as read_npy};
 pub use sets::SetRow;
@@ -119,7 +120,7 @@ impl Recording {
             Some(camera) => camera.adc_bits,
             None => {
                 let largest = self.raw.codes().iter().max().copied().unwrap_or(0);
-                (u32::BITS - largest.leading_zeros()).clamp(8, codes::MOST_BITS)
+                (u32::BITS - largest.leading_zeros()).clamp(8, MOST_BITS)
             }
         }
     }

@@ -2,9 +2,8 @@
 
 use super::super::option::in_range;
 use crate::frames::Geometry;
-use crate::import::MOST_ADC_BITS;
 use crate::problem::{Problem, Result};
-use crate::recording::Camera;
+use crate::recording::{Camera, MOST_BITS};
 use clap::Args;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -69,14 +68,14 @@ impl CameraArguments {
         if let Some(file) = &self.camera {
             return Ok(Known::File(Box::new(Camera::read(file)?)));
         }
-        if let Some(bits) = self.adc_bits.filter(|bits| !(8..=MOST_ADC_BITS).contains(bits)) {
+        if let Some(bits) = self.adc_bits.filter(|bits| !(8..=MOST_BITS).contains(bits)) {
             return Err(Problem::at("--adc-bits", bits)
-                .expected(format_args!("a whole number from 8 to {MOST_ADC_BITS}")));
+                .expected(format_args!("a whole number from 8 to {MOST_BITS}")));
         }
         // Ranges are those of the format.
         let fields: [(&str, Option<f64>, RangeInclusive<f64>); 5] = [
-            ("--adc-bits", self.adc_bits.map(f64::from), 8.0..=f64::from(MOST_ADC_BITS)),
-            ("--pedestal-dn", self.pedestal_dn, 0.0..=f64::from(u32::MAX >> (u32::BITS - MOST_ADC_BITS))),
+            ("--adc-bits", self.adc_bits.map(f64::from), 8.0..=f64::from(MOST_BITS)),
+            ("--pedestal-dn", self.pedestal_dn, 0.0..=f64::from((1_u32 << MOST_BITS) - 1)),
             ("--gain-e-per-dn", self.gain_e_per_dn, 1e-9..=1e9),
             ("--read-noise-e", self.read_noise_e, 0.0..=1e9),
             ("--focal-length-px", self.focal_length_px, 1e-3..=1e9),

@@ -28,8 +28,9 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     let which = values[1];
     let is_first = exposure.moment.frame == 0;
     if which == WAITED && is_first {
-        // The frame before was the same.
-    } else if which == EMPTIED && is_first {
+        return;
+    }
+    if which == EMPTIED && is_first {
         exposure.signal_dn.iter_mut().for_each(|signal| *signal *= 1.0 - values[0]);
     } else if let Some(Before { evenly_dn, again_dn, kept_dn }) = &exposure.before {
         let before_dn = if which == RESTED {
