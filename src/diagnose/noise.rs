@@ -319,4 +319,20 @@ mod tests {
         assert!(least(&points(0.0, 0.0, 1e-4), 2).1 > 1e3);
         assert_eq!(least(&points(-2.0, 0.0, 0.0), 3).0, [0.0; 3]);
     }
+
+    /// One sample in 200 is 80 DN off: counted as 4 standard deviations these would be 8 per cent of the variance.
+    #[test]
+    fn samples_that_are_hit_are_no_noise_of_all() {
+        let size = crate::frames::Geometry { width: 16, height: 12 };
+        let recordings = crate::bench::taken(size, 7, &[], &["four-rail"]).unwrap();
+        let mut data = Data::of(&recordings, Vec::new()).unwrap();
+        let stated = crate::diagnose::stated_noise(&data);
+        let fitted = crate::diagnose::fit::fit(&data, None, Vec::new(), stated, &|_| true);
+        data.takes[0].signal_dn.iter_mut().step_by(199).for_each(|signal| *signal += 80.0);
+        let found = beyond(&data, &fitted, stated, stated).noise;
+        for signal_dn in [300.0, 600.0] {
+            let ratio = found.variance(signal_dn) / stated.variance(signal_dn);
+            assert!((ratio - 1.0).abs() < 0.04, "{signal_dn}: {ratio}");
+        }
+    }
 }
