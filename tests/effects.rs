@@ -54,11 +54,11 @@ fn memory(chain: &Chain, deviate: f64) -> Memory {
     let before_dn: PerPixel = Draws::of(1, 1).normal(pixels).iter().map(|d| 300.0 + 50.0 * d).collect();
     Memory {
         noisy: false,
-        before: Some(Before {
+        before: Some(Arc::new(Before {
             evenly_dn: before_dn.clone(),
             again_dn: before_dn.clone(),
             kept_dn: before_dn,
-        }),
+        })),
         deviates: vec![deviate; chain.effects().len()],
         pixel_deviates: Draws::of(2, 1).normal(pixels).iter().map(|d| deviate * d).collect(),
         ..Memory::default()

@@ -5,6 +5,7 @@ use crate::frames::RawSets;
 use crate::physics::{Before, Chain, Draws, EFFECTS, Exposure, Memory, Moment, PerPixel, Sensor};
 use crate::problem::{Problem, Result};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// A camera that takes frames.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +55,7 @@ impl Simulation<'_> {
         let before = self.chain.looks_back().then(|| match before {
             Some(before_dn) => {
                 let [evenly_dn, again_dn] = [before_dn.clone(), before_dn.clone()];
-                Before { evenly_dn, again_dn, kept_dn: before_dn }
+                Arc::new(Before { evenly_dn, again_dn, kept_dn: before_dn })
             }
             None => {
                 let deviates =

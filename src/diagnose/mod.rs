@@ -8,6 +8,7 @@ mod backgrounds;
 mod block;
 mod bounds;
 mod camera;
+mod charges;
 mod clusters;
 mod codes;
 mod columns;

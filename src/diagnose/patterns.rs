@@ -2,6 +2,7 @@
 //! Such a change is made once, and each effect has its share of it.
 
 use super::acting::Acting;
+use super::charges::Charges;
 use crate::physics::{Active, Chain, Exposure, Place};
 use crate::widest::widest;
 
@@ -31,6 +32,8 @@ pub struct Patterns<'a> {
     start: Exposure,
     stations: Vec<Exposure>,
     known: Vec<((Place, Change), usize)>,
+    /// What effects did to the charge, by the small step that made the pattern.
+    charges: Charges,
     /// The columns.
     pub acting: Acting,
 }
@@ -38,7 +41,15 @@ pub struct Patterns<'a> {
 impl<'a> Patterns<'a> {
     /// None yet, of a frame that is `base`, and which from its `start` has passed these `stations` of the `chain`.
     pub fn new(chain: &'a Chain, base: &'a [f64], start: Exposure, stations: Vec<Exposure>) -> Self {
-        Self { chain, base, start, stations, known: Vec::new(), acting: Acting::default() }
+        Self {
+            chain,
+            base,
+            start,
+            stations,
+            known: Vec::new(),
+            charges: Charges::default(),
+            acting: Acting::default(),
+        }
     }
 
     /// Column `number`: what one more effect does by a `step` of one of its numbers, over that step.
@@ -48,8 +59,19 @@ impl<'a> Patterns<'a> {
         let mut exposure = station.clone();
         more.effect.act_on(&more.values, &mut exposure);
         let changes = if is_finite { None } else { changes(&exposure, station) };
-        if !exposure.stands_as(station) {
+        if exposure.stands_as(station) {
+            return;
+        }
+        if is_finite || changes.is_some() || !exposure.stands_as_but_for_charge(station) {
             self.add(number, self.chain, exposure, place, step, changes);
+            return;
+        }
+        match self.charges.share(more.effect.name, &exposure, station, step) {
+            Ok((pattern, factor)) => self.acting.share(number, pattern, factor),
+            Err(new) => {
+                self.add(number, self.chain, exposure, place, step, None);
+                self.charges.knows(new, more.effect.name, step, self.acting.patterns.len() - 1);
+            }
         }
     }
 
@@ -359,5 +381,20 @@ mod tests {
         }
         let shares: Vec<usize> = patterns.acting.shares.iter().map(|share| share.pattern).collect();
         assert_eq!(shares, [0, 0, 1, 2]);
+    }
+
+    #[test]
+    fn what_moves_charge_alike_shares_a_pattern() {
+        let (chain, moment, effect) = (chain_of(&[]), moments()[1], effect("lateral_motion"));
+        let start = chain.begin(moment, Memory::default());
+        let base = chain.expose(moment, Memory::default()).signal_dn;
+        let mut patterns = Patterns::new(&chain, &base, start.clone(), chain.stations(&start));
+        for number in 0..4 {
+            let mut values = effect.off();
+            values[number] += 1e-3;
+            patterns.more(number, &Active { effect, values }, 1e-3, false);
+        }
+        let shares = patterns.acting.shares.iter().map(|share| (share.pattern, share.factor.round()));
+        assert_eq!(shares.collect::<Vec<_>>(), [(0, 1.0), (1, 1.0), (0, 2.0), (1, 2.0)]);
     }
 }

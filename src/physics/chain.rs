@@ -25,11 +25,11 @@ pub struct Chain {
 #[derive(Debug, Clone, Default)]
 pub struct Memory {
     /// What light brought to the pixels in the frame before, DN.
-    pub before: Option<Before>,
+    pub before: Option<Arc<Before>>,
     /// The waveform at phases that the frame's may be, where it is at hand.
     pub waveform: Option<Arc<Waveform>>,
     /// The same of light that comes by other ways.
-    pub paths: Vec<Arc<Waveform>>,
+    pub paths: Arc<Vec<Arc<Waveform>>>,
     /// Draws from the standard normal distribution for this frame, one for each of [`Chain::effects`], in its order; where there are none, 0.
     pub deviates: Vec<f64>,
     /// Draws for its pixels; empty where no effect needs any.
@@ -113,13 +113,13 @@ impl Chain {
     }
 
     /// What light brought in the frame before, which is one of [`Moment::before`], with its `deviates`.
-    pub fn remember(&self, [evenly, again, kept]: [Moment; 3], deviates: &[f64]) -> Before {
+    pub fn remember(&self, [evenly, again, kept]: [Moment; 3], deviates: &[f64]) -> Arc<Before> {
         let arrive =
             |moment| self.arrive(moment, Memory { deviates: deviates.to_vec(), ..Memory::default() });
         let evenly_dn = arrive(evenly);
         let again_dn = if again == evenly { evenly_dn.clone() } else { arrive(again) };
         let kept_dn = if kept == again { again_dn.clone() } else { arrive(kept) };
-        Before { evenly_dn, again_dn, kept_dn }
+        Arc::new(Before { evenly_dn, again_dn, kept_dn })
     }
 
     /// What light brings to the pixels at `moment`, before charge goes anywhere, DN.

@@ -127,11 +127,11 @@ pub struct Exposure {
     /// What light brought to the pixels, DN, before charge went anywhere.
     pub arrived_dn: PerPixel,
     /// The same of the frame before; nothing where there was none.
-    pub before: Option<Before>,
+    pub before: Option<Arc<Before>>,
     /// The waveform at the pixels' phases, as it was looked up last: it is looked up again only where something has changed.
     pub waveform: Option<Arc<Waveform>>,
     /// The same of light that came by other ways.
-    pub paths: Vec<Arc<Waveform>>,
+    pub paths: Arc<Vec<Arc<Waveform>>>,
     /// Draws from the standard normal distribution for this frame, one for each of the chain's effects.
     pub deviates: Vec<f64>,
     /// That of the effect that acts just now; 0 where there is none.
@@ -166,7 +166,7 @@ impl Exposure {
             arrived_dn: PerPixel::default(),
             before: None,
             waveform: None,
-            paths: Vec::new(),
+            paths: Arc::default(),
             deviates: Vec::new(),
             deviate: 0.0,
             noisy: false,
@@ -218,10 +218,22 @@ impl Exposure {
 
     /// The same of everything but light, and those numbers.
     pub fn stands_as_but_for_light(&self, other: &Self) -> bool {
+        self.looks_as(other) && self.signal_dn == other.signal_dn
+    }
+
+    /// The same of everything but charge.
+    pub fn stands_as_but_for_charge(&self, other: &Self) -> bool {
+        self.scalars() == other.scalars()
+            && self.amplitude_dn == other.amplitude_dn
+            && self.constant_dn == other.constant_dn
+            && self.ambient_dn == other.ambient_dn
+            && self.looks_as(other)
+    }
+
+    fn looks_as(&self, other: &Self) -> bool {
         self.range_m == other.range_m
             && self.phase_rad == other.phase_rad
             && self.correlation == other.correlation
-            && self.signal_dn == other.signal_dn
     }
 
     /// The target's way since the set's start, m.
@@ -310,7 +322,7 @@ impl Exposure {
         let known = self.paths.iter().find(is_it).cloned();
         let path = known.unwrap_or_else(|| {
             let path = Arc::new(Waveform::of(&self.correlation, phase_rad, self.angle_rad));
-            self.paths.push(Arc::clone(&path));
+            Arc::make_mut(&mut self.paths).push(Arc::clone(&path));
             path
         });
         for ((sum, amplitude), relative) in self.signal_dn.iter_mut().zip(amplitude_dn).zip(path.relative()) {

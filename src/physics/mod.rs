@@ -23,6 +23,7 @@ mod pulse;
 mod scene;
 mod sensor;
 mod shape;
+mod slopes;
 mod stage;
 mod trig;
 

@@ -32,7 +32,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     }
     if which == EMPTIED && is_first {
         exposure.signal_dn.iter_mut().for_each(|signal| *signal *= 1.0 - values[0]);
-    } else if let Some(Before { evenly_dn, again_dn, kept_dn }) = &exposure.before {
+    } else if let Some(Before { evenly_dn, again_dn, kept_dn }) = exposure.before.as_deref() {
         let before_dn = if which == RESTED {
             kept_dn
         } else if which > 0.5 {

@@ -1,6 +1,8 @@
 //! The scene moves sideways during a set.
 
+use crate::physics::slopes::{Side, slopes, slopes_of_texture};
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use std::sync::Arc;
 
 /// Columns and rows by which the image moves, a second, or, where the carriage's way is not the camera's axis, a metre of that way. All that is in the image moves
 /// (0), with what the pixels' own gains make of it; or the target's texture within its outline (1).
@@ -24,12 +26,15 @@ pub static EFFECT: Effect = Effect {
 fn act(values: &[f64], exposure: &mut Exposure) {
     let of = |side: usize| (values[side] + values[2 + side] * exposure.velocity_m_s) * exposure.in_set_s;
     let moved = [of(0), of(1)];
-    let own = exposure.signal_dn.clone();
-    for (pixel, signal) in exposure.signal_dn.iter_mut().enumerate() {
-        let (along, down) = match values[4] > 0.5 {
-            true => exposure.pixels.slopes_of_texture(&own, pixel),
-            false => exposure.pixels.slopes(&own, pixel, moved),
+    if moved == [0.0; 2] {
+        return;
+    }
+    let (own, pixels) = (exposure.signal_dn.clone(), Arc::clone(&exposure.pixels));
+    for (side, moved) in Side::ALL.into_iter().zip(moved).filter(|(_, moved)| *moved != 0.0) {
+        let slopes = match values[4] > 0.5 {
+            true => slopes_of_texture(&pixels, &own, side),
+            false => slopes(&pixels, &own, side, moved),
         };
-        *signal -= moved[0] * along + moved[1] * down;
+        exposure.signal_dn.iter_mut().zip(slopes).for_each(|(signal, slope)| *signal -= moved * slope);
     }
 }
