@@ -9,7 +9,8 @@ use super::Recording;
 use super::plain_dft::dft_of;
 use crate::problem::{Problem, Result};
 use crate::spec::{
-    DFT_FRAMES, Modulation, Pipeline, SCHEMES, Scheme, Specification, Word, normalised_order, scheme,
+    ADC_BITS, DFT_FRAMES, Modulation, Pipeline, SCHEMES, Scheme, Specification, Word, normalised_order,
+    scheme,
 };
 use crate::units::wrap_rad;
 
@@ -19,8 +20,6 @@ pub const STEP_TOLERANCE_RAD: f64 = 1e-4;
 
 /// Steps that a refusal lists before it says how many there are.
 const MOST_STEPS_SHOWN: usize = 40;
-/// Bits of the widest ADC that the hardware takes.
-const HARDWARE_BITS: u32 = 16;
 
 /// Which scheme a recording is processed with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -44,9 +43,10 @@ pub fn pipeline_for(
 ) -> Result<(Pipeline, Vec<String>)> {
     let Steps { scheme, frames_per_step, order } = steps_of(recording, base, choice)?;
     let bits = recording.adc_bits();
-    if bits > HARDWARE_BITS {
+    let most = *ADC_BITS.end();
+    if i64::from(bits) > most {
         return Err(Problem::in_file(&recording.folder, format_args!("its codes have {bits} bits"))
-            .expected(format_args!("{HARDWARE_BITS} at most: the hardware takes no more"))
+            .expected(format_args!("{most} at most: the hardware takes no more"))
             .remedy("shift the codes down; `vuris diagnose` takes them as they are"));
     }
     let source = format!("{} adapted to {}", base.name, recording.folder.display());

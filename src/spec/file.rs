@@ -3,8 +3,8 @@
 use super::angle::{read_cordic, write_cordic};
 use super::sequence::DEFAULT_PHASE_STEP_BITS;
 use super::{
-    Modulation, Multipliers, Output, RegisterBlock, Scheme, Sensor, Specification, Word, normalised_order,
-    refused, scheme_file, sequence, unwrapping,
+    ADC_BITS, Modulation, Multipliers, Output, RegisterBlock, Scheme, Sensor, Specification, Word,
+    normalised_order, refused, scheme_file, sequence, unwrapping,
 };
 use crate::fields::{self, Fields};
 use crate::problem::{Problem, Result};
@@ -70,7 +70,7 @@ pub(super) fn parse(source: &str, text: &str) -> Result<Specification> {
 
     let sensor = top.section("sensor")?;
     sensor.only(&["width", "height", "adc_bits", "saturation_dn", "line_blanking_clocks"])?;
-    let adc_bits = sensor.integer("adc_bits", 8..=16)? as u32;
+    let adc_bits = sensor.integer("adc_bits", ADC_BITS)? as u32;
     let full_scale_dn = Word::unsigned(adc_bits).max();
     let sensor = Sensor {
         width: sensor.integer("width", 2..=4096)? as usize,
@@ -192,8 +192,9 @@ pub(super) fn check(source: &str, specification: &Specification) -> Result<()> {
             )));
         }
     }
-    if !(8..=16).contains(&sensor.adc_bits) {
-        return Err(refused(source, "sensor.adc_bits", sensor.adc_bits).expected("8 to 16 bits"));
+    if !ADC_BITS.contains(&i64::from(sensor.adc_bits)) {
+        let expected = format_args!("{} to {} bits", ADC_BITS.start(), ADC_BITS.end());
+        return Err(refused(source, "sensor.adc_bits", sensor.adc_bits).expected(expected));
     }
     let full_scale_dn = Word::unsigned(sensor.adc_bits).max();
     if !(1..=full_scale_dn).contains(&sensor.saturation_dn) {

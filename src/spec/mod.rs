@@ -49,6 +49,10 @@ pub use word::Word;
 use crate::frames::Geometry;
 use crate::problem::{Problem, Result};
 use sha2::{Digest, Sha256};
+use std::ops::RangeInclusive;
+
+/// Bits of a raw code that the hardware takes.
+pub const ADC_BITS: RangeInclusive<i64> = 8..=16;
 
 /// The sensor and its raw stream.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +61,7 @@ pub struct Sensor {
     pub width: usize,
     /// Lines a frame, 1 to 4096.
     pub height: usize,
-    /// Bits of a raw code, 8 to 16.
+    /// Bits of a raw code, of [`ADC_BITS`].
     pub adc_bits: u32,
     /// Least code that counts as saturated, DN; 1 to full scale.
     pub saturation_dn: i64,
