@@ -8,7 +8,9 @@ use super::in_order::joined;
 use super::random::CLUSTER_NATS;
 use super::set_errors::Jitter;
 use super::whiten::{WINSOR, whiten};
+use crate::physics::Pixels;
 use nalgebra::{Matrix3, Vector3};
+use std::sync::Arc;
 
 /// Variance of the noise at a signal, DN², and what frames are off by at random.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,8 +137,8 @@ fn line(points: &[(f64, f64)]) -> Noise {
 pub struct Beyond {
     /// It, with what was stated.
     pub noise: Noise,
-    /// Evidence (nats) that some of it is in proportion to the signal, rather than all of it like read and shot noise; 0 where that is not
-    /// clear.
+    /// Evidence (nats) that some of it is in proportion to the signal, rather than all of it like read and shot noise, or what the response makes of that; 0 where
+    /// that is not clear.
     pub in_proportion: f64,
     /// Standard deviation of the part in proportion to the signal, relative, squared.
     pub square_sigma: f64,
@@ -167,44 +169,54 @@ const LOOKS: usize = 8;
 fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
     let full_scale_dn = fit.pixels.full_scale_dn;
-    // Samples, and sums of their signal and of their residual's square over the variance.
-    let add = |mut bins: Vec<[f64; 3]>, &(take, index): &(usize, usize)| {
+    // The same pixels, each with one DN more of light.
+    let mut brighter = Pixels::clone(&fit.pixels);
+    brighter.ambient_dn.iter_mut().for_each(|ambient| *ambient += 1.0);
+    let (brighter, _) = Tangents::new(data, &Arc::new(brighter), &fit.pieces, &[]);
+    // Samples, and sums of their signal, of their residual's square over the variance, and of the shot noise that a response makes of what was stated.
+    let add = |mut bins: Vec<[f64; 4]>, &(take, index): &(usize, usize)| {
         let base = tangents.base(take, index);
+        let more = brighter.base(take, index);
         let (roots, residuals) = whiten(data, take, index, &base, known);
         // A few samples that are far off (pixels that were hit) are no noise of all.
         let is_near = |(_, residual): &(&f64, f64)| residual.abs() < WINSOR;
-        let seen = base.iter().zip(residuals).zip(&roots).filter(|(_, root)| **root > 0.0);
-        for (&signal, residual) in seen.map(|(of, _)| of).filter(is_near) {
+        let response = more.iter().zip(&base).map(|(more, base)| more - base);
+        let seen = base.iter().zip(residuals).zip(response).zip(&roots).filter(|(_, root)| **root > 0.0);
+        for ((&signal, residual), response) in seen.map(|(of, _)| of).filter(|(of, _)| is_near(of)) {
             let place = (signal.max(0.0) / full_scale_dn).sqrt() * BINS as f64;
-            let [count, signals, squares] = &mut bins[(place as usize).min(BINS - 1)];
+            let [count, signals, squares, shots] = &mut bins[(place as usize).min(BINS - 1)];
             *count += 1.0;
             *signals += signal.max(0.0);
             *squares += residual * residual;
+            *shots += stated.slope * signal.max(0.0) * (response * response - 1.0);
         }
         bins
     };
-    let none = || vec![[0.0; 3]; BINS];
+    let none = || vec![[0.0; 4]; BINS];
     let frames = frames(data);
     let chunk = frames.len().div_ceil(CHUNKS).max(1);
     let of_chunk = |frames: &[(usize, usize)]| frames.iter().fold(none(), add);
-    let join = |mut bins: Vec<[f64; 3]>, others: Vec<[f64; 3]>| {
+    let join = |mut bins: Vec<[f64; 4]>, others: Vec<[f64; 4]>| {
         bins.iter_mut().flatten().zip(others.into_iter().flatten()).for_each(|(sum, other)| *sum += other);
         bins
     };
     let bins = joined(&frames, chunk, of_chunk, join).unwrap_or_else(none);
-    let points = bins.into_iter().filter(|bin| bin[0] > 0.0).map(|[count, signals, squares]| {
+    let points = bins.into_iter().filter(|bin| bin[0] > 0.0).map(|[count, signals, squares, shots]| {
         let signal = signals / count;
         let (variance, ratio) = (known.weight(signal).recip(), squares / (count * NEAR));
         // The squares scatter by the variance that there is.
         let scatter = variance * ratio.max(1.0);
         let more = ratio * variance - stated.weight(signal).recip();
-        Point { signal, more, weight: count / (2.0 * scatter * scatter) }
+        let point = Point { signal, more, weight: count / (2.0 * scatter * scatter) };
+        (Point { more: more - shots / count, ..point }, point)
     });
-    let points: Vec<Point> = points.collect();
-    let (like_stated, without) = least(&points, 2);
-    let (parts, with) = least(&points, 3);
-    let nats = 0.5 * (without - with);
-    let (parts, in_proportion) = if nats > CLUSTER_NATS { (parts, nats) } else { (like_stated, 0.0) };
+    let (without_shots, points): (Vec<Point>, Vec<Point>) = points.unzip();
+    let gain = |points: &[Point]| 0.5 * (least(points, 2).1 - least(points, 3).1);
+    let is_clear = |nats: &f64| *nats > CLUSTER_NATS;
+    let parts = least(&points, if is_clear(&gain(&points)) { 3 } else { 2 }).0;
+    // A response that is steeper where there is more light makes more of the shot noise there: that is no noise of its own.
+    let of_its_own = gain(&points).min(gain(&without_shots));
+    let in_proportion = Some(of_its_own).filter(is_clear).unwrap_or(0.0);
     let noise = Noise {
         floor: stated.floor + parts[0],
         slope: stated.slope + parts[1],
@@ -215,6 +227,7 @@ fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
 }
 
 /// Variance beyond what was stated, DN², at a signal, and the inverse square of what it is known to.
+#[derive(Clone, Copy)]
 struct Point {
     signal: f64,
     more: f64,
@@ -334,5 +347,22 @@ mod tests {
             let ratio = found.variance(signal_dn) / stated.variance(signal_dn);
             assert!((ratio - 1.0).abs() < 0.04, "{signal_dn}: {ratio}");
         }
+    }
+
+    /// A response that doubles the slope at full scale makes four times the shot noise there: that is no noise of its own, but noise none the less.
+    #[test]
+    fn shot_noise_of_a_steep_response_is_no_noise_of_its_own() {
+        let size = crate::frames::Geometry { width: 16, height: 12 };
+        let recordings = crate::bench::taken(size, 7, &[], &["four-rail"]).unwrap();
+        let mut data = Data::of(&recordings, Vec::new()).unwrap();
+        let stated = crate::diagnose::stated_noise(&data);
+        let fitted = |data: &Data, pieces| crate::diagnose::fit::fit(data, None, pieces, stated, &|_| true);
+        let full_scale_dn = fitted(&data, Vec::new()).pixels.full_scale_dn as f32;
+        for signal in &mut data.takes[0].signal_dn {
+            *signal += 0.5 * *signal * *signal / full_scale_dn;
+        }
+        let response = super::super::pieces::Piece::off("intensity_nonlinearity", &[0], &[0]);
+        let found = beyond(&data, &fitted(&data, vec![response]), stated, stated);
+        assert!(found.in_proportion == 0.0 && found.noise.square > 0.0, "{found:?}");
     }
 }

@@ -3,8 +3,8 @@
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
 use std::f64::consts::TAU;
 
-/// Parts of the error, and its period. The carriage moves as it is commanded (0), or, controlled by this very encoder, faster and slower in time with
-/// its error (1).
+/// Parts of the error, and its period. The carriage moves as it is commanded (0), or, controlled by this very encoder, as its readings say, faster and slower
+/// in time with its error (1).
 pub static EFFECT: Effect = Effect {
     name: "encoder_cyclic",
     sentence: "The encoder's error is periodic in position (lead screw, interpolation).",
@@ -22,9 +22,18 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let (cosine, sine) = cos_sin(TAU * exposure.moment.place_m / values[2]);
-    exposure.position_m += values[0] * cosine + values[1] * sine;
+    let turn_per_m = TAU / values[2];
+    let at = |reading_m: f64| {
+        let (cosine, sine) = cos_sin(turn_per_m * reading_m);
+        (values[0] * cosine + values[1] * sine, turn_per_m * (values[1] * cosine - values[0] * sine))
+    };
+    let reading_m = exposure.moment.place_m;
+    let (error_m, slope) = at(reading_m);
+    exposure.position_m += error_m;
     if values[3] > 0.5 {
-        exposure.velocity_m_s *= 1.0 + TAU / values[2] * (values[1] * cosine - values[0] * sine);
+        // Of the way since the set's start the mean velocity is what counts: errors may come and go within a set.
+        let way_m = exposure.way_m();
+        let faster = if way_m == 0.0 { slope } else { (at(reading_m + way_m).0 - error_m) / way_m };
+        exposure.velocity_m_s *= 1.0 + faster;
     }
 }
