@@ -37,3 +37,47 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         exposure.velocity_m_s *= 1.0 + faster;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{practice_camera, sensor};
+    use crate::frames::Geometry;
+    use crate::physics::{Correlation, Included, Moment, Stage};
+    use std::sync::Arc;
+
+    /// At 2 m/s five frames see half of a wave of half a metre: each sees the target where the reading of that time and its error say.
+    #[test]
+    fn an_encoder_that_controls_the_carriage_errs_within_a_set() {
+        let camera = sensor(&practice_camera(Geometry { width: 4, height: 3 }));
+        let pixels = Arc::new(Stage::bench().pixels(&camera, 5));
+        let included = Included { axial_motion: true, inverse_square_falloff: true };
+        let (cosine_m, sine_m, period_m) = (0.004, -0.003, 0.5);
+        for frame in 0..5 {
+            let in_set_s = f64::from(frame) * 0.033;
+            let moment = Moment {
+                set: 0,
+                frame: frame as usize,
+                frames: 5,
+                time_s: in_set_s,
+                in_set_s,
+                frame_period_s: 0.033,
+                step_rad: 0.0,
+                offset_rad: 0.0,
+                position_m: 1.3,
+                place_m: 1.3,
+                velocity_m_s: 2.0,
+                frequency_hz: 30e6,
+                lit: true,
+                transmission: 1.0,
+            };
+            let mut exposure = Exposure::new(moment, &pixels, included, &Correlation::sinusoidal());
+            EFFECT.act_on(&[cosine_m, sine_m, period_m, 1.0], &mut exposure);
+            let reading_m = 1.3 + 2.0 * in_set_s;
+            let turns = TAU * reading_m / period_m;
+            let expected_m = reading_m + cosine_m * turns.cos() + sine_m * turns.sin();
+            let found_m = exposure.position_m + exposure.way_m();
+            assert!((found_m - expected_m).abs() < 1e-12, "frame {frame}: {found_m}, not {expected_m}");
+        }
+    }
+}
