@@ -46,6 +46,15 @@ impl Pixels {
         (share(column, width), share(row, height))
     }
 
+    /// Sines of the angle to the camera's axis along the columns and the rows, by the obliquity and the side of the image's middle.
+    pub fn sines(&self, pixel: usize) -> [f64; 2] {
+        let (x, y) = self.place(pixel);
+        let off_axis = [x * self.geometry.width as f64, y * self.geometry.height as f64];
+        let sine = (1.0 - self.obliquity[pixel].powi(-2)).max(0.0).sqrt();
+        let whole = libm::hypot(off_axis[0], off_axis[1]);
+        off_axis.map(|off| if whole > 0.0 { sine * off / whole } else { 0.0 })
+    }
+
     /// The pairs of [`Pixels::edges`] of a mask.
     pub fn edges_of(geometry: Geometry, target: &[bool]) -> Vec<(usize, usize)> {
         let pairs = |pixel: usize| {

@@ -2,11 +2,13 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 use crate::units::phase_rad;
+use std::sync::Arc;
 
 /// The square of the distance from the lens to the emitter. From beside the lens by `b` the way out to a target at `d`, straight ahead, is
 /// √(d² + b²), longer than the way back by `b² / 2d`; what a pixel's direction adds, `b sin a`, does not depend on the distance and is the pixel's own.
 /// Emitters all around the lens make the same, near the axis. Where amplitudes are not calibrated for it, light falls with the square of the way out, too: by
-/// `b² / d²`, for which there is a number of its own.
+/// `b² / d²`, for which there is a number of its own, and, where the emitters' middle is beside the lens along the columns and rows, by `2 b sin a / d`: the nearer
+/// the target is, the brighter is the side of the image on which they are.
 pub static EFFECT: Effect = Effect {
     name: "illumination_baseline",
     sentence: "The light starts beside the lens (bistatic geometry): the way out is longer than the way back, the more the nearer \
@@ -15,6 +17,8 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("squared_baseline_m2", "m^2", 0.0, (0.0, 0.1), 2.5e-3),
         Parameter::strength("squared_baseline_of_light_m2", "m^2", 0.0, (0.0, 0.1), 2.5e-3).instead(),
+        Parameter::strength("middle_along_columns_m", "m", 0.0, (-0.3, 0.3), 0.02).instead(),
+        Parameter::strength("middle_along_rows_m", "m", 0.0, (-0.3, 0.3), 0.02).instead(),
     ],
     place: Place::Waveform,
     chance: Chance::None,
@@ -23,21 +27,30 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let (squared_m2, of_light_m2) = (values[0] + values[1], values[1]);
+    let middle_m = [values[2], values[3]];
+    let of_light_m2 = values[1] + middle_m[0].powi(2) + middle_m[1].powi(2);
+    let squared_m2 = values[0] + of_light_m2;
     if squared_m2 == 0.0 {
         return;
     }
+    let pixels = Arc::clone(&exposure.pixels);
     let Exposure { phase_rad: phases_rad, range_m, amplitude_dn, constant_dn, frequency_hz, .. } = exposure;
-    for (phase, &range_m) in phases_rad.iter_mut().zip(&*range_m) {
+    // What the pixel's direction adds of the distance to the emitters' middle.
+    let aside_m = |pixel: usize| match middle_m {
+        [0.0, 0.0] => 0.0,
+        _ => pixels.sines(pixel).iter().zip(middle_m).map(|(sine, middle_m)| sine * middle_m).sum::<f64>(),
+    };
+    for (pixel, (phase, &range_m)) in phases_rad.iter_mut().zip(&*range_m).enumerate() {
         // The mean of both ways is what a range of this phase would be.
-        let mean_m = ((range_m * range_m + squared_m2).sqrt() - range_m) / 2.0;
-        *phase += phase_rad(mean_m, *frequency_hz);
+        let squared_out_m2 = range_m * (range_m - 2.0 * aside_m(pixel)) + squared_m2;
+        *phase += phase_rad((squared_out_m2.max(0.0).sqrt() - range_m) / 2.0, *frequency_hz);
     }
     if of_light_m2 != 0.0 {
         for light_dn in [amplitude_dn, constant_dn] {
-            for (light, &range_m) in light_dn.iter_mut().zip(&*range_m) {
+            for (pixel, (light, &range_m)) in light_dn.iter_mut().zip(&*range_m).enumerate() {
                 let squared_range_m2 = range_m * range_m;
-                *light *= squared_range_m2 / (squared_range_m2 + of_light_m2);
+                let squared_out_m2 = squared_range_m2 - 2.0 * range_m * aside_m(pixel) + of_light_m2;
+                *light *= squared_range_m2 / squared_out_m2;
             }
         }
     }
