@@ -169,7 +169,7 @@ fn fit_from(
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
     let round = Round::new(data, &pixels, &pieces, noise, counts);
-    let start = Model { pixels, pieces, round, came_down: false, is_stuck: false };
+    let start = Model { pixels, pieces, round, came_by: Stride::Whole, came_down: false, is_stuck: false };
     let step = |here: &Model, may_climb: bool| {
         // Shapes are fitted from the second step on only, on a hill nothing is known of the valley behind it, and far from the data steps promise too little.
         let is_hopeless = here.came_down && !here.round.is_far() && here.round.hoped() > most;
@@ -184,7 +184,9 @@ struct Model {
     pixels: Arc<Pixels>,
     pieces: Vec<Piece>,
     round: Round,
-    /// The step to it led downhill; not where the fit began.
+    /// The step to it.
+    came_by: Stride,
+    /// It led downhill; not where the fit began.
     came_down: bool,
     /// Far from any minimum, what hardly moves will not come there.
     is_stuck: bool,
@@ -203,7 +205,7 @@ impl Model {
         // What has no shape has no other step with it held.
         let is_another =
             |stride: &Stride| *stride != Stride::ShapesHeld || self.round.has_shapes(&self.pieces);
-        Stride::ALL.into_iter().filter(is_another).find_map(|stride| {
+        self.came_by.and_after().filter(is_another).find_map(|stride| {
             let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), stride);
             let settle = |pixels: &Arc<Pixels>| {
                 settled(data, pixels, Some(&self.pixels), SETTLINGS, &pieces, noise, counts)
@@ -228,7 +230,7 @@ impl Model {
             let is_slow = round.loss() > (1.0 - SLOW) * self.round.loss();
             let is_stuck = is_slow && round.is_far();
             let came_down = round.left() <= self.round.left();
-            is_taken.then_some(Self { pixels, pieces, round, came_down, is_stuck })
+            is_taken.then_some(Self { pixels, pieces, round, came_by: stride, came_down, is_stuck })
         })
     }
 

@@ -7,6 +7,7 @@ use super::pass::RIVAL_NATS;
 use super::pieces::Piece;
 use super::search::Named;
 use super::tolerated::{are_of_distance, tolerated};
+use crate::physics::Parameter;
 
 /// Both, as they were promised.
 #[derive(Debug, Clone)]
@@ -18,23 +19,28 @@ pub struct Promised {
 }
 
 impl Promised {
-    /// Whether what `came` is one of the two as it was promised, without a shape that it could have changed, and the other has been tried beside that, where
-    /// tangents are good, in vain: `excess`, by an effect's name, is what it would explain there besides chance, chi squared.
-    pub fn is_hopeless(&self, came: &[Piece], excess: &dyn Fn(&str) -> f64) -> bool {
+    /// Whether what `came` is of the two as it was promised, without a shape that it could have changed.
+    fn is_of_it(&self, came: &[Piece]) -> bool {
         let is_promised = |piece: &Piece| {
             let is_the_same = |other: &Piece| {
                 other.effect.name == piece.effect.name
                     && other.takes == piece.takes
                     && other.free == piece.free
             };
-            let has_shapes = piece.effect.parameters.iter().any(|parameter| parameter.is_shape());
-            !has_shapes && self.pieces.iter().any(is_the_same)
+            let is_fitted_shape = |parameter: &Parameter| parameter.is_shape() && !parameter.is_choice;
+            !piece.effect.parameters.iter().any(is_fitted_shape) && self.pieces.iter().any(is_the_same)
         };
+        came.iter().all(is_promised)
+    }
+
+    /// Whether what `came` is one of the two as it was promised, and the other has been tried beside that, where tangents are good, in vain: `excess`, by an
+    /// effect's name, is what it would explain there besides chance, chi squared.
+    pub fn is_hopeless(&self, came: &[Piece], excess: &dyn Fn(&str) -> f64) -> bool {
         let numbers = |pieces: &[Piece]| pieces.iter().map(|piece| piece.free.len()).sum::<usize>() as f64;
         let is_another = |named: &&Named| !came.iter().any(|piece| piece.effect.name == named.name);
         let hoped: f64 = self.named.iter().filter(is_another).map(|named| excess(named.name)).sum();
         let needed = 2.0 * RIVAL_NATS + numbers(&self.pieces) - numbers(came);
-        came.iter().all(is_promised) && HOPE * hoped < needed
+        self.is_of_it(came) && HOPE * hoped < needed
     }
 
     /// Both together from the `baseline` on, where one of them did not come and they fit clearly better than what came, by the fit and its names.
@@ -49,10 +55,11 @@ impl Promised {
         if self.named.iter().all(is_there) {
             return None;
         }
-        // Of several that are of the distance, what is more may be what the form of one leaves.
+        // Of several that are of the distance, what is more may be what the form of one leaves; so it may beside what came as it was promised.
         let all = || names.iter().chain(&self.named).map(|named| named.name);
         let are_of_distance = all().all(|one| all().all(|other| are_of_distance(one, other)));
-        let of_forms = if are_of_distance { 0.5 * tolerated(names) } else { 0.0 };
+        let may_be_of_form = are_of_distance || self.is_of_it(&came.pieces);
+        let of_forms = if may_be_of_form { 0.5 * tolerated(names) } else { 0.0 };
         let most = came.cost() - RIVAL_NATS.max(of_forms);
         let fitted = fit_below(data, baseline, self.pieces.clone(), noise, most);
         (fitted.cost() < most).then(|| {

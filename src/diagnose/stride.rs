@@ -21,6 +21,13 @@ impl Stride {
     /// One after the other, until one is taken (Levenberg 1944, Marquardt 1963).
     pub const ALL: [Self; 5] =
         [Self::Whole, Self::Damped(1e-2), Self::Damped(0.3), Self::Damped(10.0), Self::ShapesHeld];
+
+    /// Those from the one on that is damped less than this one, which was taken: what was too far there will be here.
+    pub fn and_after(self) -> impl Iterator<Item = Self> {
+        let place = Self::ALL.iter().position(|stride| *stride == self).unwrap_or(0);
+        let less = if self == Self::ShapesHeld { 0 } else { place.saturating_sub(1) };
+        Self::ALL.into_iter().skip(less)
+    }
 }
 
 /// Whether the number of a `column` is a shape.
