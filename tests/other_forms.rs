@@ -1,5 +1,5 @@
 //! `vuris diagnose` on what is known by one form, and comes in another: wells that few samples fill, shifters of many settings, encoders that control what they
-//! measure, noise of few samples.
+//! measure, noise of few samples, emitters on one side, scatter nearby.
 
 mod diagnosed;
 mod rewritten;
@@ -108,6 +108,39 @@ fn a_texture_that_moves_is_named() {
     assert_eq!(names(&verdict), ["lateral_motion"], "{verdict:#}");
     let (found, sigma) = parameter(&verdict, "columns_a_metre");
     assert!((found - 0.4).abs() < 4.0 * sigma, "{found} +- {sigma}");
+}
+
+/// Emitters above the lens light the upper half of the image more, the nearer the target is: by more than the way out is longer.
+#[test]
+fn emitters_on_one_side_light_that_side() {
+    let verdict = verdict_of("four-rail,wdft-rail", "illumination_baseline:middle_along_rows_m=-0.05");
+    assert_eq!(names(&verdict), ["illumination_baseline"], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    let (found, sigma) = parameter(&verdict, "middle_along_rows_m");
+    assert!((found + 0.05).abs() < 4.0 * sigma && sigma < 0.01, "{found} +- {sigma}");
+}
+
+/// Scatter that stays near what is bright is no light of the pixels beside the target's edge.
+#[test]
+fn light_that_is_scattered_nearby_is_scattered_light() {
+    let verdict = verdict_of("four-rail,wdft-rail", "lens_scatter:share=0.06,radius_of_width=0.2");
+    assert_eq!(names(&verdict), ["lens_scatter"], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    let (found, sigma) = parameter(&verdict, "share");
+    assert!((found - 0.06).abs() < 4.0 * sigma, "{found} +- {sigma}");
+    assert_eq!(parameter(&verdict, "radius_of_width").0, 0.2);
+}
+
+/// At 1 and 2 m/s a set goes over a wave of the encoder that controls the carriage: that is no jitter.
+#[test]
+fn an_encoder_that_errs_within_a_set_is_no_jitter() {
+    let verdict = verdict_of(
+        "four-motion,four-rail",
+        "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.13,controls_carriage=1",
+    );
+    assert_eq!(names(&verdict), ["encoder_cyclic"], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    assert_eq!(parameter(&verdict, "controls_carriage").0, 1.0);
 }
 
 /// Nobody states how far the background is. At one frequency its pixels' own phases say it, and another frequency's are not asked.
