@@ -123,12 +123,12 @@ fn emitters_on_one_side_light_that_side() {
 /// Scatter that stays near what is bright is no light of the pixels beside the target's edge.
 #[test]
 fn light_that_is_scattered_nearby_is_scattered_light() {
-    let verdict = verdict_of("four-rail,wdft-rail", "lens_scatter:share=0.06,radius_of_width=0.2");
+    let verdict = verdict_of("four-rail,wdft-rail", "lens_scatter:share=0.06,decay_length_of_width=0.2");
     assert_eq!(names(&verdict), ["lens_scatter"], "{verdict:#}");
     assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
     let (found, sigma) = parameter(&verdict, "share");
     assert!((found - 0.06).abs() < 4.0 * sigma, "{found} +- {sigma}");
-    assert_eq!(parameter(&verdict, "radius_of_width").0, 0.2);
+    assert_eq!(parameter(&verdict, "decay_length_of_width").0, 0.2);
 }
 
 /// At 1 and 2 m/s a set goes over a wave of the encoder that controls the carriage: that is no jitter.

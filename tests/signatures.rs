@@ -466,6 +466,15 @@ fn illumination_baseline(make: Make, findings: &mut Findings) {
     let lost = |name| sum(&Vec::new) - sum(&of(name));
     findings.about("light falls", lost("squared_baseline_of_light_m2"), 2.0 * ACTIVE / 101.0, 1e-9);
     findings.below("the phase alone", lost("squared_baseline_m2").abs(), 1e-9);
+    // Two pixels that look 45 degrees to either side see 1.414 m away what is lit from 10 cm to the right, from 1.81 and 2.21 m^2 away instead of 2.
+    let frame = |frame: usize| {
+        let pixels = Pixels { obliquity: vec![SQRT_2; 2], ..row(&[A; 2]) };
+        frame_of(pixels, make("illumination_baseline", &[("middle_along_columns_m", 0.1)]), frame)
+    };
+    let [first, third] = [0, 2].map(frame);
+    let light = [0, 1].map(|pixel| first[pixel] + third[pixel] - 2.0 * AMBIENT);
+    findings.about("the left side", light[0], ACTIVE * 2.0 / 2.21, 1e-9);
+    findings.about("the right side", light[1], ACTIVE * 2.0 / 1.81, 1e-9);
 }
 
 fn lateral_motion(make: Make, findings: &mut Findings) {

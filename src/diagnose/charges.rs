@@ -19,11 +19,13 @@ struct Charge {
 #[derive(Default)]
 pub struct Charges(Vec<Charge>);
 
-/// A change of the charge that is not known yet.
-pub struct NewCharge(Vec<f64>);
+/// A change of the charge that is not known yet, and the rounding of either of its ends, DN.
+pub struct NewCharge(Vec<f64>, f64);
 
 /// Changes of the charge are the same where they differ by no more than rounding of the charge of full scale.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// What others are compared with is so many times more than that: of what is rounding itself anything is a multiple.
+const CLEAR: f64 = 1e6;
 
 impl Charges {
     /// The pattern, and how much of it, that a `step` of a number of the effect `name` makes of `station`, where it changed the charge alone, and one before it did the same;
@@ -42,18 +44,24 @@ impl Charges {
                 return Ok((known.pattern, factor * known.step / step));
             }
         }
-        Err(NewCharge(change_dn))
+        Err(NewCharge(change_dn, rounding))
     }
 
     /// From now on a change by a `step` of a number of the effect `name` is known, of which `pattern` is what it became.
-    pub fn knows(&mut self, NewCharge(change_dn): NewCharge, name: &'static str, step: f64, pattern: usize) {
+    pub fn knows(
+        &mut self,
+        NewCharge(change_dn, rounding): NewCharge,
+        name: &'static str,
+        step: f64,
+        pattern: usize,
+    ) {
         let mut place = 0;
         for (other, change) in change_dn.iter().enumerate() {
             if change.abs() > change_dn[place].abs() {
                 place = other;
             }
         }
-        if change_dn.get(place).is_some_and(|change| *change != 0.0) {
+        if change_dn.get(place).is_some_and(|change| change.abs() > CLEAR * rounding) {
             self.0.push(Charge { name, change_dn, place, step, pattern });
         }
     }

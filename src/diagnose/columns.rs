@@ -163,6 +163,25 @@ impl<'a> Tangents<'a> {
         expose(&self.chains[take].base, moments[index], before, Memory::default()).signal_dn
     }
 
+    /// The charge that is read out, DN, and what the read-out makes of one more DN of it; nothing where it leaves charge as it is.
+    pub fn read_out(&self, take: usize, index: usize) -> Option<(PerPixel, Vec<f64>)> {
+        let chain = &self.chains[take].base;
+        if chain.effects().iter().all(|active| active.effect.place != Place::Readout) {
+            return None;
+        }
+        let moments = &self.data.takes[take].moments;
+        let before = Moment::before(index, |index| moments[index]);
+        let before = chain.looks_back().then(|| chain.remember(before, &[]));
+        let start = chain.begin(moments[index], Memory { before, ..Memory::default() });
+        let stations = chain.stations(&start);
+        let charge = &stations[Place::Charge as usize];
+        let mut more = charge.clone();
+        more.signal_dn.iter_mut().for_each(|charge| *charge += 1.0);
+        chain.resume(&mut more, Place::Charge);
+        let end = &stations[Place::Readout as usize].signal_dn;
+        Some((charge.signal_dn.clone(), difference(&more.signal_dn, end, 1.0)))
+    }
+
     /// Frame number `index` of recording `take`.
     pub fn frame(&self, take: usize, index: usize) -> Frame {
         let moments = &self.data.takes[take].moments;

@@ -17,8 +17,8 @@ pub enum Verdict {
     Unexplained,
 }
 
-/// Of a camera that is described so many effects were left out at most: more are what an unknown one looks like. (Of eighteen answers with three names or more to
-/// campaigns of independent generators none had that many effects, and all with four were to effects that are in no library, or to one in another form.)
+/// Of a camera that is described so many effects were left out at most: more are what an unknown one looks like. (Campaigns of independent generators had two at most; all answers
+/// with four names were to an effect that is in no library, or to one in another form.)
 const MOST_NAMES: usize = 3;
 
 /// What the verdict depends on.

@@ -8,9 +8,7 @@ use super::in_order::joined;
 use super::random::CLUSTER_NATS;
 use super::set_errors::Jitter;
 use super::whiten::{WINSOR, whiten};
-use crate::physics::Pixels;
 use nalgebra::{Matrix3, Vector3};
-use std::sync::Arc;
 
 /// Variance of the noise at a signal, DN², and what frames are off by at random.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,26 +167,28 @@ const LOOKS: usize = 8;
 fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
     let full_scale_dn = fit.pixels.full_scale_dn;
-    // The same pixels, each with one DN more of light.
-    let mut brighter = Pixels::clone(&fit.pixels);
-    brighter.ambient_dn.iter_mut().for_each(|ambient| *ambient += 1.0);
-    let (brighter, _) = Tangents::new(data, &Arc::new(brighter), &fit.pieces, &[]);
-    // Samples, and sums of their signal, of their residual's square over the variance, and of the shot noise that a response makes of what was stated.
+    // Samples, and sums of their signal, of their residual's square over the variance, and of what shot noise of the charge has beyond that of the signal, if it is there before
+    // the read-out makes more of it.
     let add = |mut bins: Vec<[f64; 4]>, &(take, index): &(usize, usize)| {
         let base = tangents.base(take, index);
-        let more = brighter.base(take, index);
+        let read_out = tangents.read_out(take, index);
+        let shots = |pixel: usize| {
+            read_out.as_ref().map_or(0.0, |(charge, response)| {
+                stated.slope * (charge[pixel].max(0.0) * response[pixel].powi(2) - base[pixel].max(0.0))
+            })
+        };
         let (roots, residuals) = whiten(data, take, index, &base, known);
         // A few samples that are far off (pixels that were hit) are no noise of all.
         let is_near = |(_, residual): &(&f64, f64)| residual.abs() < WINSOR;
-        let response = more.iter().zip(&base).map(|(more, base)| more - base);
-        let seen = base.iter().zip(residuals).zip(response).zip(&roots).filter(|(_, root)| **root > 0.0);
-        for ((&signal, residual), response) in seen.map(|(of, _)| of).filter(|(of, _)| is_near(of)) {
+        let seen = base.iter().zip(residuals).zip(&roots).enumerate().filter(|(_, (_, root))| **root > 0.0);
+        let seen = seen.map(|(pixel, (of, _))| (pixel, of)).filter(|(_, of)| is_near(of));
+        for (pixel, (&signal, residual)) in seen {
             let place = (signal.max(0.0) / full_scale_dn).sqrt() * BINS as f64;
-            let [count, signals, squares, shots] = &mut bins[(place as usize).min(BINS - 1)];
+            let [count, signals, squares, more] = &mut bins[(place as usize).min(BINS - 1)];
             *count += 1.0;
             *signals += signal.max(0.0);
             *squares += residual * residual;
-            *shots += stated.slope * signal.max(0.0) * (response * response - 1.0);
+            *more += shots(pixel);
         }
         bins
     };
@@ -214,7 +214,8 @@ fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let gain = |points: &[Point]| 0.5 * (least(points, 2).1 - least(points, 3).1);
     let is_clear = |nats: &f64| *nats > CLUSTER_NATS;
     let parts = least(&points, if is_clear(&gain(&points)) { 3 } else { 2 }).0;
-    // A response that is steeper where there is more light makes more of the shot noise there: that is no noise of its own.
+    // A response that is steeper where there is more light makes more of the shot noise there, if that is of the charge, and not of what is read out: what either says
+    // is no noise of its own.
     let of_its_own = gain(&points).min(gain(&without_shots));
     let in_proportion = Some(of_its_own).filter(is_clear).unwrap_or(0.0);
     let noise = Noise {
@@ -362,7 +363,14 @@ mod tests {
             *signal += 0.5 * *signal * *signal / full_scale_dn;
         }
         let response = super::super::pieces::Piece::off("intensity_nonlinearity", &[0], &[0]);
-        let found = beyond(&data, &fitted(&data, vec![response]), stated, stated);
+        let fitted = fitted(&data, vec![response]);
+        let found = beyond(&data, &fitted, stated, stated);
         assert!(found.in_proportion == 0.0 && found.noise.square > 0.0, "{found:?}");
+        // What is much more than that is noise of its own.
+        let signals = data.takes[0].signal_dn.iter_mut();
+        for (signal, draw) in signals.zip(crate::physics::Draws::of(3, 1).normal(fitted.samples)) {
+            *signal *= 1.0 + 0.02 * draw as f32;
+        }
+        assert!(beyond(&data, &fitted, stated, stated).in_proportion > CLUSTER_NATS);
     }
 }

@@ -19,7 +19,7 @@ pub struct Promised {
 }
 
 impl Promised {
-    /// Whether what `came` is of the two as it was promised, without a shape that it could have changed.
+    /// Whether what `came` is of the two by the same numbers in the same recordings, whatever its choice, without a shape that it could have fitted.
     fn is_of_it(&self, came: &[Piece]) -> bool {
         let is_promised = |piece: &Piece| {
             let is_the_same = |other: &Piece| {
@@ -100,6 +100,10 @@ mod tests {
         assert!(!is_hopeless(&[Piece { takes: vec![0], ..came }], 0.0, 0.0));
         assert!(!is_hopeless(&[piece("frame_gain", &[0])], 0.0, 0.0));
         assert!(!is_hopeless(&[piece(drift, &[0, 1, 2])], 0.0, 0.0));
+        // What has a choice has no shape that it could have fitted.
+        let scatter = Piece { takes: vec![0, 1], ..piece("lens_scatter", &[0]) };
+        let promised = Promised { pieces: vec![scatter.clone(), piece(drift, &[0])], named: Vec::new() };
+        assert!(promised.is_of_it(&[scatter]) && !promised.is_of_it(&[piece(drift, &[0])]));
         // Nothing came: both are still to be tried.
         assert!(!is_hopeless(&[], 5.0, 5.0));
     }

@@ -22,11 +22,11 @@ impl Stride {
     pub const ALL: [Self; 5] =
         [Self::Whole, Self::Damped(1e-2), Self::Damped(0.3), Self::Damped(10.0), Self::ShapesHeld];
 
-    /// Those from the one on that is damped less than this one, which was taken: what was too far there will be here.
+    /// All of them, from the one on that is damped less than this one, which was taken: what was too far there is likely to be here, and comes last.
     pub fn and_after(self) -> impl Iterator<Item = Self> {
         let place = Self::ALL.iter().position(|stride| *stride == self).unwrap_or(0);
         let less = if self == Self::ShapesHeld { 0 } else { place.saturating_sub(1) };
-        Self::ALL.into_iter().skip(less)
+        Self::ALL.into_iter().cycle().skip(less).take(Self::ALL.len())
     }
 }
 

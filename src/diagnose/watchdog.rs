@@ -9,8 +9,6 @@ pub const ENOUGH: f64 = 0.1;
 const PATIENCE: usize = 5;
 /// So many that change next to nothing are the end.
 const SLOW: usize = 2;
-/// On a way back that may not climb, what lowers it by less is next to nothing: a long valley is gone down by small steps.
-const LITTLE: f64 = 1.0;
 
 /// Where at most so `many` steps lead from `start`, and, if the way was lower before, so many from there that may not lead uphill (the watchdog technique
 /// of Chamberlain, Powell, Lemarechal and Pedersen 1982, with the whole way for its relaxed part). `step` is given a place and whether it may lead uphill;
@@ -27,7 +25,6 @@ pub fn descend<M>(
     let mut best: Option<M> = None;
     for may_climb in [true, false] {
         let (mut above, mut slow) = (0, 0);
-        let enough = if may_climb { enough } else { enough.max(LITTLE) };
         for _ in 0..many {
             let Some(there) = step(&here, may_climb) else { break };
             let behind = replace(&mut here, there);

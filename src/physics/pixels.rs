@@ -69,3 +69,38 @@ impl Pixels {
         edges.iter().map(|(pixel, _)| edges.iter().filter(|(own, _)| own == pixel).count() as f64).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the tangents of a camera of this focal length: x / √(f² + x² + y²) along the columns, and y along the rows.
+    #[test]
+    fn sines_are_those_of_the_pixels_directions() {
+        let geometry = Geometry { width: 5, height: 2 };
+        let (focal_px, count) = (4.0_f64, geometry.pixels());
+        let aside = |pixel: usize| [(pixel % 5) as f64 - 2.0, (pixel / 5) as f64 - 0.5];
+        let away =
+            |pixel: usize| (focal_px.powi(2) + aside(pixel).map(|px| px * px).iter().sum::<f64>()).sqrt();
+        let of = |value: f64| vec![value; count];
+        let pixels = Pixels {
+            geometry,
+            target: vec![true; count],
+            obliquity: (0..count).map(|pixel| away(pixel) / focal_px).collect(),
+            background_m: of(4.0),
+            phase_rad: of(0.0),
+            amplitude_1m_dn: of(1.0),
+            constant_1m_dn: of(1.0),
+            ambient_dn: of(0.0).into(),
+            full_scale_dn: 4095.0,
+            pedestal_dn: 0.0,
+            edges: Vec::new(),
+            edge_counts: Vec::new(),
+        };
+        for pixel in 0..count {
+            let expected = aside(pixel).map(|px| px / away(pixel));
+            let found = pixels.sines(pixel);
+            assert!((0..2).all(|side| (found[side] - expected[side]).abs() < 1e-12), "{pixel}: {found:?}");
+        }
+    }
+}

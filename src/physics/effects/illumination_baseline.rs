@@ -8,7 +8,8 @@ use std::sync::Arc;
 /// √(d² + b²), longer than the way back by `b² / 2d`; what a pixel's direction adds, `b sin a`, does not depend on the distance and is the pixel's own.
 /// Emitters all around the lens make the same, near the axis. Where amplitudes are not calibrated for it, light falls with the square of the way out, too: by
 /// `b² / d²`, for which there is a number of its own, and, where the emitters' middle is beside the lens along the columns and rows, by `2 b sin a / d`: the nearer
-/// the target is, the brighter is the side of the image on which they are.
+/// the target is, the brighter is the side of the image on which they are. A surface is lit here as strongly from aside as from straight ahead, by emitters that shine
+/// everywhere alike: of a plane that faces the camera both are half as much again, and so is the length that is found.
 pub static EFFECT: Effect = Effect {
     name: "illumination_baseline",
     sentence: "The light starts beside the lens (bistatic geometry): the way out is longer than the way back, the more the nearer \

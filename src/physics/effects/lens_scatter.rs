@@ -1,17 +1,17 @@
-//! Light that the lens and the camera scatter over the whole image.
+//! Light that the lens and the camera scatter over the image.
 
 use crate::frames::Geometry;
 use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
 
-/// Share of every pixel's light that is spread: over all pixels alike, or around it, falling by a factor e every so much of the image's width along its columns
-/// and as far along its rows.
+/// Share of every pixel's light that is spread: over all pixels alike (0), or around it, falling by a factor e every so much of the image's width along its columns and
+/// as far along its rows. What falls beyond the image's border is lost then, and nothing comes from there.
 pub static EFFECT: Effect = Effect {
     name: "lens_scatter",
     sentence: "The lens scatters part of the light over the image, so every pixel carries some of what others see.",
     reference: "Mure-Dubois 2007; Kavli 2008: z -> z + h * z",
     parameters: &[
         Parameter::strength("share", "1", 0.0, (0.0, 0.5), 0.02),
-        Parameter::choice("radius_of_width", "1", &[0.0, 0.1, 0.2, 0.4]),
+        Parameter::choice("decay_length_of_width", "1", &[0.0, 0.1, 0.2, 0.4]),
     ],
     place: Place::Correlation,
     chance: Chance::None,
@@ -20,10 +20,10 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let (share, radius) = (values[0], values[1]);
-    if radius > 0.0 {
+    let (share, decay) = (values[0], values[1]);
+    if decay > 0.0 {
         let Geometry { width, height } = exposure.pixels.geometry;
-        let spread_dn = spread(&exposure.signal_dn, width, height, (-1.0 / (radius * width as f64)).exp());
+        let spread_dn = spread(&exposure.signal_dn, width, height, (-1.0 / (decay * width as f64)).exp());
         let both = exposure.signal_dn.iter_mut().zip(spread_dn);
         both.for_each(|(signal, spread)| *signal += share * (spread - *signal));
     } else {
