@@ -22,6 +22,15 @@ fn verdict_of(recordings: &str, effect: &str) -> Value {
     verdict(&campaign(folder.path(), recordings, &[effect]))
 }
 
+/// The same where that effect explains all, and is named alone.
+fn explained(recordings: &str, effect: &str) -> Value {
+    let verdict = verdict_of(recordings, effect);
+    let name = effect.split_once(':').map_or(effect, |(name, _)| name);
+    assert_eq!(names(&verdict), [name], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    verdict
+}
+
 /// A number that looks as if it were drawn, from 0 to 1, of a sample's or a setting's own.
 fn drawn(places: &[usize]) -> f64 {
     let factors = [12.9898, 78.233, 37.719, 4.581, 91.17];
@@ -68,9 +77,7 @@ fn a_shifter_has_an_error_of_each_of_its_settings() {
     let error = |setting: usize| 0.012 * (drawn(&[setting]) - 0.5);
     let settings = (0..64).map(|setting| format!("setting_{setting}_rad={:.6}", error(setting)));
     let settings = settings.chain(["settings_a_turn=64".to_owned()]).collect::<Vec<_>>().join(",");
-    let verdict = verdict_of("four-sweep,four-rail", &format!("phase_step_errors:{settings}"));
-    assert_eq!(names(&verdict), ["phase_step_errors"], "{verdict:#}");
-    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    let verdict = explained("four-sweep,four-rail", &format!("phase_step_errors:{settings}"));
     assert_eq!(parameter(&verdict, "settings_a_turn").0, 64.0);
 }
 
@@ -94,9 +101,7 @@ fn samples_that_are_hit_are_no_noise() {
 /// jitter.
 #[test]
 fn a_lag_over_the_pause_between_sets_is_no_jitter() {
-    let verdict = verdict_of("four-motion,wdft-rail", "image_lag:share=0.01,last_step_before_first=-2");
-    assert_eq!(names(&verdict), ["image_lag"], "{verdict:#}");
-    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    let verdict = explained("four-motion,wdft-rail", "image_lag:share=0.01,last_step_before_first=-2");
     let (found, sigma) = parameter(&verdict, "share");
     assert!((found - 0.01).abs() < 4.0 * sigma, "{found} +- {sigma}");
 }
@@ -113,9 +118,7 @@ fn a_texture_that_moves_is_named() {
 /// Emitters above the lens light the upper half of the image more, the nearer the target is: by more than the way out is longer.
 #[test]
 fn emitters_on_one_side_light_that_side() {
-    let verdict = verdict_of("four-rail,wdft-rail", "illumination_baseline:middle_along_rows_m=-0.05");
-    assert_eq!(names(&verdict), ["illumination_baseline"], "{verdict:#}");
-    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    let verdict = explained("four-rail,wdft-rail", "illumination_baseline:middle_along_rows_m=-0.05");
     let (found, sigma) = parameter(&verdict, "middle_along_rows_m");
     assert!((found + 0.05).abs() < 4.0 * sigma && sigma < 0.01, "{found} +- {sigma}");
 }
@@ -123,9 +126,7 @@ fn emitters_on_one_side_light_that_side() {
 /// Scatter that stays near what is bright is no light of the pixels beside the target's edge.
 #[test]
 fn light_that_is_scattered_nearby_is_scattered_light() {
-    let verdict = verdict_of("four-rail,wdft-rail", "lens_scatter:share=0.06,decay_length_of_width=0.2");
-    assert_eq!(names(&verdict), ["lens_scatter"], "{verdict:#}");
-    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    let verdict = explained("four-rail,wdft-rail", "lens_scatter:share=0.06,decay_length_of_width=0.2");
     let (found, sigma) = parameter(&verdict, "share");
     assert!((found - 0.06).abs() < 4.0 * sigma, "{found} +- {sigma}");
     assert_eq!(parameter(&verdict, "decay_length_of_width").0, 0.2);
@@ -134,12 +135,10 @@ fn light_that_is_scattered_nearby_is_scattered_light() {
 /// At 1 and 2 m/s a set goes over a wave of the encoder that controls the carriage: that is no jitter.
 #[test]
 fn an_encoder_that_errs_within_a_set_is_no_jitter() {
-    let verdict = verdict_of(
+    let verdict = explained(
         "four-motion,four-rail",
         "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.13,controls_carriage=1",
     );
-    assert_eq!(names(&verdict), ["encoder_cyclic"], "{verdict:#}");
-    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
     assert_eq!(parameter(&verdict, "controls_carriage").0, 1.0);
 }
 

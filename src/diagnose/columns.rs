@@ -171,9 +171,7 @@ impl<'a> Tangents<'a> {
         }
         let moments = &self.data.takes[take].moments;
         let before = Moment::before(index, |index| moments[index]);
-        let before = chain.looks_back().then(|| chain.remember(before, &[]));
-        let start = chain.begin(moments[index], Memory { before, ..Memory::default() });
-        let stations = chain.stations(&start);
+        let stations = chain.stations(&begun(chain, moments[index], before, Memory::default()));
         let charge = &stations[Place::Charge as usize];
         let mut more = charge.clone();
         more.signal_dn.iter_mut().for_each(|charge| *charge += 1.0);
@@ -240,6 +238,13 @@ impl<'a> Tangents<'a> {
 
 /// The frame of `chain` at `moment`, after one of the frames `before`, with what is at hand in `memory`.
 fn expose(chain: &Chain, moment: Moment, before: [Moment; 3], memory: Memory) -> Exposure {
+    let mut exposure = begun(chain, moment, before, memory);
+    chain.run(&mut exposure, Place::Encoder);
+    exposure
+}
+
+/// The same before it has come to any place.
+fn begun(chain: &Chain, moment: Moment, before: [Moment; 3], memory: Memory) -> Exposure {
     let before = chain.looks_back().then(|| chain.remember(before, &[]));
-    chain.expose(moment, Memory { before, ..memory })
+    chain.begin(moment, Memory { before, ..memory })
 }

@@ -213,11 +213,11 @@ fn seen_beside(data: &Data, fit: &Fit, known: Noise, stated: Noise) -> Beyond {
     let (without_shots, points): (Vec<Point>, Vec<Point>) = points.unzip();
     let gain = |points: &[Point]| 0.5 * (least(points, 2).1 - least(points, 3).1);
     let is_clear = |nats: &f64| *nats > CLUSTER_NATS;
-    let parts = least(&points, if is_clear(&gain(&points)) { 3 } else { 2 }).0;
+    let nats = gain(&points);
+    let parts = least(&points, if is_clear(&nats) { 3 } else { 2 }).0;
     // A response that is steeper where there is more light makes more of the shot noise there, if that is of the charge, and not of what is read out: what either says
     // is no noise of its own.
-    let of_its_own = gain(&points).min(gain(&without_shots));
-    let in_proportion = Some(of_its_own).filter(is_clear).unwrap_or(0.0);
+    let in_proportion = Some(nats.min(gain(&without_shots))).filter(is_clear).unwrap_or(0.0);
     let noise = Noise {
         floor: stated.floor + parts[0],
         slope: stated.slope + parts[1],
@@ -334,13 +334,19 @@ mod tests {
         assert_eq!(least(&points(-2.0, 0.0, 0.0), 3).0, [0.0; 3]);
     }
 
+    /// Clean recordings, and their noise.
+    fn clean() -> (Data, Noise) {
+        let size = crate::frames::Geometry { width: 16, height: 12 };
+        let recordings = crate::bench::taken(size, 7, &[], &["four-rail"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let stated = crate::diagnose::stated_noise(&data);
+        (data, stated)
+    }
+
     /// One sample in 200 is 80 DN off: counted as 4 standard deviations these would be 8 per cent of the variance.
     #[test]
     fn samples_that_are_hit_are_no_noise_of_all() {
-        let size = crate::frames::Geometry { width: 16, height: 12 };
-        let recordings = crate::bench::taken(size, 7, &[], &["four-rail"]).unwrap();
-        let mut data = Data::of(&recordings, Vec::new()).unwrap();
-        let stated = crate::diagnose::stated_noise(&data);
+        let (mut data, stated) = clean();
         let fitted = crate::diagnose::fit::fit(&data, None, Vec::new(), stated, &|_| true);
         data.takes[0].signal_dn.iter_mut().step_by(199).for_each(|signal| *signal += 80.0);
         let found = beyond(&data, &fitted, stated, stated).noise;
@@ -353,10 +359,7 @@ mod tests {
     /// A response that doubles the slope at full scale makes four times the shot noise there: that is no noise of its own, but noise none the less.
     #[test]
     fn shot_noise_of_a_steep_response_is_no_noise_of_its_own() {
-        let size = crate::frames::Geometry { width: 16, height: 12 };
-        let recordings = crate::bench::taken(size, 7, &[], &["four-rail"]).unwrap();
-        let mut data = Data::of(&recordings, Vec::new()).unwrap();
-        let stated = crate::diagnose::stated_noise(&data);
+        let (mut data, stated) = clean();
         let fitted = |data: &Data, pieces| crate::diagnose::fit::fit(data, None, pieces, stated, &|_| true);
         let full_scale_dn = fitted(&data, Vec::new()).pixels.full_scale_dn as f32;
         for signal in &mut data.takes[0].signal_dn {

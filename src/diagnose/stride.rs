@@ -92,3 +92,20 @@ fn step(projected: &Projected, reach: &[f64], damping: f64) -> (DVector<f64>, DM
     let covariance = DMatrix::from_fn(size, size, |r, c| inverse[(r, c)] * scale[r] * scale[c]);
     (theta, covariance)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever was taken, all are tried, and what was damped more comes first.
+    #[test]
+    fn strides_go_on_from_the_last_one() {
+        let [whole, little, more, much, held] = Stride::ALL;
+        let after = |stride: Stride| stride.and_after().collect::<Vec<_>>();
+        assert_eq!(after(whole), Stride::ALL);
+        assert_eq!(after(little), Stride::ALL);
+        assert_eq!(after(more), [little, more, much, held, whole]);
+        assert_eq!(after(much), [more, much, held, whole, little]);
+        assert_eq!(after(held), Stride::ALL);
+    }
+}

@@ -210,10 +210,7 @@ impl Exposure {
 
     /// Whether everything else that effects change is the same in both.
     pub fn arrays_stand_as(&self, other: &Self) -> bool {
-        self.amplitude_dn == other.amplitude_dn
-            && self.constant_dn == other.constant_dn
-            && self.ambient_dn == other.ambient_dn
-            && self.stands_as_but_for_light(other)
+        self.is_lit_as(other) && self.stands_as_but_for_light(other)
     }
 
     /// The same of everything but light, and those numbers.
@@ -223,11 +220,13 @@ impl Exposure {
 
     /// The same of everything but charge.
     pub fn stands_as_but_for_charge(&self, other: &Self) -> bool {
-        self.scalars() == other.scalars()
-            && self.amplitude_dn == other.amplitude_dn
+        self.scalars() == other.scalars() && self.is_lit_as(other) && self.looks_as(other)
+    }
+
+    fn is_lit_as(&self, other: &Self) -> bool {
+        self.amplitude_dn == other.amplitude_dn
             && self.constant_dn == other.constant_dn
             && self.ambient_dn == other.ambient_dn
-            && self.looks_as(other)
     }
 
     fn looks_as(&self, other: &Self) -> bool {

@@ -70,6 +70,26 @@ impl Pixels {
     }
 }
 
+/// Pixels that all see the target, straight ahead, alike.
+#[cfg(test)]
+pub(super) fn plain(geometry: Geometry) -> Pixels {
+    let of = |value: f64| vec![value; geometry.pixels()];
+    Pixels {
+        geometry,
+        target: vec![true; geometry.pixels()],
+        obliquity: of(1.0),
+        background_m: of(4.0),
+        phase_rad: of(0.0),
+        amplitude_1m_dn: of(1.0),
+        constant_1m_dn: of(1.0),
+        ambient_dn: of(0.0).into(),
+        full_scale_dn: 4095.0,
+        pedestal_dn: 0.0,
+        edges: Vec::new(),
+        edge_counts: Vec::new(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,21 +102,8 @@ mod tests {
         let aside = |pixel: usize| [(pixel % 5) as f64 - 2.0, (pixel / 5) as f64 - 0.5];
         let away =
             |pixel: usize| (focal_px.powi(2) + aside(pixel).map(|px| px * px).iter().sum::<f64>()).sqrt();
-        let of = |value: f64| vec![value; count];
-        let pixels = Pixels {
-            geometry,
-            target: vec![true; count],
-            obliquity: (0..count).map(|pixel| away(pixel) / focal_px).collect(),
-            background_m: of(4.0),
-            phase_rad: of(0.0),
-            amplitude_1m_dn: of(1.0),
-            constant_1m_dn: of(1.0),
-            ambient_dn: of(0.0).into(),
-            full_scale_dn: 4095.0,
-            pedestal_dn: 0.0,
-            edges: Vec::new(),
-            edge_counts: Vec::new(),
-        };
+        let obliquity = (0..count).map(|pixel| away(pixel) / focal_px).collect();
+        let pixels = Pixels { obliquity, ..plain(geometry) };
         for pixel in 0..count {
             let expected = aside(pixel).map(|px| px / away(pixel));
             let found = pixels.sines(pixel);

@@ -16,16 +16,10 @@ impl Side {
     /// Both, columns first.
     pub const ALL: [Self; 2] = [Self::Columns, Self::Rows];
 
-    /// From a pixel to the next one along it, and to the next one across it; and whether a pixel has one before and one after it.
-    fn steps(self, Geometry { width, height }: Geometry) -> ([usize; 2], impl Fn(usize) -> [bool; 2]) {
-        let (along, across) = if self == Self::Columns { (1, width) } else { (width, 1) };
-        let (columns, rows) = (width, height);
-        let ends = move |pixel: usize| {
-            let (place, count) =
-                if self == Self::Columns { (pixel % columns, columns) } else { (pixel / columns, rows) };
-            [place > 0, place + 1 < count]
-        };
-        ([along, across], ends)
+    /// The pixels before and after a pixel along it.
+    fn beside(self, geometry: Geometry, pixel: usize) -> [Option<usize>; 2] {
+        let [left, right, above, below] = geometry.beside(pixel);
+        if self == Self::Columns { [left, right] } else { [above, below] }
     }
 
     fn other(self) -> Self {
@@ -35,10 +29,9 @@ impl Side {
 
 /// Slopes of `values` along `side`, a pixel, on the side from which the image comes that moves by `moved` pixels; 0 beyond the image's border.
 pub fn slopes(pixels: &Pixels, values: &[f64], side: Side, moved: f64) -> Vec<f64> {
-    let ([step, _], ends) = side.steps(pixels.geometry);
-    let of = |pixel: usize| match ends(pixel) {
-        [true, _] if moved > 0.0 => values[pixel] - values[pixel - step],
-        [_, true] if moved < 0.0 => values[pixel + step] - values[pixel],
+    let of = |pixel: usize| match side.beside(pixels.geometry, pixel) {
+        [Some(before), _] if moved > 0.0 => values[pixel] - values[before],
+        [_, Some(after)] if moved < 0.0 => values[after] - values[pixel],
         _ => 0.0,
     };
     (0..values.len()).map(of).collect()
@@ -47,28 +40,19 @@ pub fn slopes(pixels: &Pixels, values: &[f64], side: Side, moved: f64) -> Vec<f6
 /// The same of the target's texture, whichever way it moves: the mean over the pixel's row or column and those beside it, which the pixels' own gains change
 /// less. There is one where the target is on both sides; a pixel beyond the target has none.
 pub fn slopes_of_texture(pixels: &Pixels, values: &[f64], side: Side) -> Vec<f64> {
-    let ([step, across], ends) = side.steps(pixels.geometry);
-    let (_, ends_across) = side.other().steps(pixels.geometry);
-    let target = &pixels.target;
-    // Slope and number of slopes, of one row or column.
-    let own = |pixel: usize| match ends(pixel) {
-        [true, true] if target[pixel - step] && target[pixel + step] => {
-            (0.5 * (values[pixel + step] - values[pixel - step]), 1.0)
+    let (geometry, target) = (pixels.geometry, &pixels.target);
+    let own = |pixel: usize| match side.beside(geometry, pixel) {
+        [Some(before), Some(after)] if target[before] && target[after] => {
+            Some(0.5 * (values[after] - values[before]))
         }
-        _ => (0.0, 0.0),
+        _ => None,
     };
-    let own: Vec<(f64, f64)> = (0..values.len()).map(own).collect();
+    let own: Vec<Option<f64>> = (0..values.len()).map(own).collect();
     let mean = |pixel: usize| {
-        if !target[pixel] {
-            return 0.0;
-        }
-        let (mut sum, mut count) = own[pixel];
-        let beside = [pixel.wrapping_sub(across), pixel + across];
-        for (beside, _) in beside.into_iter().zip(ends_across(pixel)).filter(|(_, is_there)| *is_there) {
-            sum += own[beside].0;
-            count += own[beside].1;
-        }
-        if count > 0.0 { sum / count } else { 0.0 }
+        let [before, after] = side.other().beside(geometry, pixel);
+        let there = [Some(pixel), before, after].into_iter().flatten().filter_map(|pixel| own[pixel]);
+        let (sum, count) = there.fold((0.0, 0.0), |(sum, count), slope| (sum + slope, count + 1.0));
+        if target[pixel] && count > 0.0 { sum / count } else { 0.0 }
     };
     (0..values.len()).map(mean).collect()
 }
@@ -76,26 +60,13 @@ pub fn slopes_of_texture(pixels: &Pixels, values: &[f64], side: Side) -> Vec<f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::pixels::plain;
 
     /// Pixels of which those at these places see the background.
     fn pixels(width: usize, height: usize, background: &[usize]) -> Pixels {
         let geometry = Geometry { width, height };
-        let count = geometry.pixels();
-        let of = |value: f64| vec![value; count];
-        Pixels {
-            geometry,
-            target: (0..count).map(|pixel| !background.contains(&pixel)).collect(),
-            obliquity: of(1.0),
-            background_m: of(4.0),
-            phase_rad: of(0.0),
-            amplitude_1m_dn: of(1.0),
-            constant_1m_dn: of(1.0),
-            ambient_dn: of(0.0).into(),
-            full_scale_dn: 4095.0,
-            pedestal_dn: 0.0,
-            edges: Vec::new(),
-            edge_counts: Vec::new(),
-        }
+        let target = (0..geometry.pixels()).map(|pixel| !background.contains(&pixel)).collect();
+        Pixels { target, ..plain(geometry) }
     }
 
     /// A plane has its slopes within an image that the target fills, and none across its border or over the target's edge.

@@ -30,28 +30,30 @@ pub static EFFECT: Effect = Effect {
 fn act(values: &[f64], exposure: &mut Exposure) {
     let middle_m = [values[2], values[3]];
     let of_light_m2 = values[1] + middle_m[0].powi(2) + middle_m[1].powi(2);
-    let squared_m2 = values[0] + of_light_m2;
-    if squared_m2 == 0.0 {
+    if values[0] + of_light_m2 == 0.0 {
         return;
     }
     let pixels = Arc::clone(&exposure.pixels);
     let Exposure { phase_rad: phases_rad, range_m, amplitude_dn, constant_dn, frequency_hz, .. } = exposure;
-    // What the pixel's direction adds of the distance to the emitters' middle.
-    let aside_m = |pixel: usize| match middle_m {
-        [0.0, 0.0] => 0.0,
-        _ => pixels.sines(pixel).iter().zip(middle_m).map(|(sine, middle_m)| sine * middle_m).sum::<f64>(),
+    // The squared way out, m^2, as the light falls with it: what the pixel's direction says of the emitters' middle goes with the range.
+    let squared_out_m2 = |(pixel, &range_m): (usize, &f64)| {
+        let aside_m = match middle_m {
+            [0.0, 0.0] => 0.0,
+            _ => pixels.sines(pixel).iter().zip(middle_m).map(|(sine, middle_m)| sine * middle_m).sum(),
+        };
+        range_m * (range_m - 2.0 * aside_m) + of_light_m2
     };
-    for (pixel, (phase, &range_m)) in phases_rad.iter_mut().zip(&*range_m).enumerate() {
+    let squared_out_m2: Vec<f64> = range_m.iter().enumerate().map(squared_out_m2).collect();
+    for ((phase, range_m), squared_out_m2) in phases_rad.iter_mut().zip(&*range_m).zip(&squared_out_m2) {
         // The mean of both ways is what a range of this phase would be.
-        let squared_out_m2 = range_m * (range_m - 2.0 * aside_m(pixel)) + squared_m2;
-        *phase += phase_rad((squared_out_m2.max(0.0).sqrt() - range_m) / 2.0, *frequency_hz);
+        let out_m = (squared_out_m2 + values[0]).max(0.0).sqrt();
+        *phase += phase_rad((out_m - range_m) / 2.0, *frequency_hz);
     }
     if of_light_m2 != 0.0 {
         for light_dn in [amplitude_dn, constant_dn] {
-            for (pixel, (light, &range_m)) in light_dn.iter_mut().zip(&*range_m).enumerate() {
-                let squared_range_m2 = range_m * range_m;
-                let squared_out_m2 = squared_range_m2 - 2.0 * range_m * aside_m(pixel) + of_light_m2;
-                *light *= squared_range_m2 / squared_out_m2;
+            for ((light, range_m), squared_out_m2) in light_dn.iter_mut().zip(&*range_m).zip(&squared_out_m2)
+            {
+                *light *= range_m * range_m / squared_out_m2;
             }
         }
     }
