@@ -5,7 +5,9 @@ use super::fit::{Fit, fit_until};
 use super::noise::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
+use crate::physics::Pixels;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// One set in so many of each recording is looked at first: no multiple of how often positions are repeated, as a rule.
 const PART: usize = 7;
@@ -31,10 +33,12 @@ pub struct Entrant {
     pub name: &'static str,
     /// Pieces of the fit.
     pub pieces: Vec<Piece>,
+    /// The pixels beside these, where they are known already.
+    pub pixels: Option<Arc<Pixels>>,
 }
 
-/// Those of the `entrants` that may explain about as much of what `current` leaves as the best one. The first, the best by its tangents,
-/// stays.
+/// Those of the `entrants` that may explain about as much of what `current` leaves as the best one, as they fit the part: most of the way has been gone
+/// there. The first, the best by its tangents, stays.
 pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise) -> Vec<Entrant> {
     if entrants.len() < 2 || current.samples / PART < LEAST_SAMPLES {
         return entrants;
@@ -67,7 +71,11 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         // What takes residuals from many standard deviations to a few explains next to nothing of what counts.
         stays.iter_mut().zip(stay(&Fit::left)).for_each(|(stays, by_all)| *stays |= by_all);
     }
-    entrants.into_iter().zip(stays).filter(|(_, stays)| *stays).map(|(entrant, _)| entrant).collect()
+    let end = |(entrant, fit): (Entrant, Fit)| match fit.chi2.is_finite() {
+        true => Entrant { pieces: fit.pieces, pixels: Some(fit.pixels), ..entrant },
+        false => entrant,
+    };
+    entrants.into_iter().zip(fits).zip(stays).filter(|(_, stays)| *stays).map(|(both, _)| end(both)).collect()
 }
 
 /// What an entrant explains of a part of the sets, chi squared, and by how many numbers.

@@ -115,6 +115,11 @@ impl Fit {
     }
 }
 
+/// So many steps downhill that each take away less than this share of what they promise are the end: down a long and bent valley many are, and little
+/// comes of them.
+const CREEPING: (usize, f64) = (2, 0.01);
+/// Where a step took away this share of what was promised the next one is damped less.
+const KEPT: f64 = 0.5;
 /// By at least this share a step far from the minimum must lower the sum of squares for another one to be taken.
 const SLOW: f64 = 1e-3;
 
@@ -128,6 +133,11 @@ pub fn fit(
 ) -> Fit {
     let pixels = from.map_or_else(|| start(data, noise, counts), |fit| Arc::clone(&fit.pixels));
     fit_from(data, pixels, pieces, noise, counts, End { enough: ENOUGH, most: f64::INFINITY })
+}
+
+/// The same from `pixels` on, which are known already, to all sets.
+pub fn fit_beside(data: &Data, pixels: Arc<Pixels>, pieces: Vec<Piece>, noise: Noise) -> Fit {
+    fit_from(data, pixels, pieces, noise, &|_| true, End { enough: ENOUGH, most: f64::INFINITY })
 }
 
 /// The same from the pixels of `from` on, to all sets, given up where its [cost](Fit::cost) will clearly stay beyond `most`: what comes then costs more than
@@ -169,11 +179,13 @@ fn fit_from(
     let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
     free_shapes(&mut pieces);
     let round = Round::new(data, &pixels, &pieces, noise, counts);
-    let start = Model { pixels, pieces, round, came_by: Stride::Whole, came_down: false, is_stuck: false };
+    let (came_by, kept, came_down, is_stuck, crept) = (Stride::Whole, true, false, false, 0);
+    let start = Model { pixels, pieces, round, came_by, kept, came_down, is_stuck, crept };
     let step = |here: &Model, may_climb: bool| {
         // Shapes are fitted from the second step on only, on a hill nothing is known of the valley behind it, and far from the data steps promise too little.
         let is_hopeless = here.came_down && !here.round.is_far() && here.round.hoped() > most;
-        let is_there = here.is_stuck || is_hopeless || here.round.gain < enough;
+        let is_there =
+            here.is_stuck || here.crept == CREEPING.0 || is_hopeless || here.round.gain < enough;
         if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
     };
     descend(start, ITERATIONS, enough, &step, &|model| model.round.left()).end()
@@ -186,10 +198,14 @@ struct Model {
     round: Round,
     /// The step to it.
     came_by: Stride,
+    /// It took away a good part of what was promised.
+    kept: bool,
     /// It led downhill; not where the fit began.
     came_down: bool,
     /// Far from any minimum, what hardly moves will not come there.
     is_stuck: bool,
+    /// So many steps one after the other, none of which could climb, took away next to nothing of what they promised.
+    crept: usize,
 }
 
 impl Model {
@@ -205,7 +221,7 @@ impl Model {
         // What has no shape has no other step with it held.
         let is_another =
             |stride: &Stride| *stride != Stride::ShapesHeld || self.round.has_shapes(&self.pieces);
-        self.came_by.and_after().filter(is_another).find_map(|stride| {
+        self.came_by.and_after(self.kept).filter(is_another).find_map(|stride| {
             let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), stride);
             let settle = |pixels: &Arc<Pixels>| {
                 settled(data, pixels, Some(&self.pixels), SETTLINGS, &pieces, noise, counts)
@@ -220,7 +236,8 @@ impl Model {
             };
             let mut is_taken = takes(&round);
             // What pixels nearly absorb is large where it shows little: what is wrong with the step may be theirs.
-            if !is_taken && !self.round.is_far() && self.round.gain > UNSETTLED {
+            let may_be_pixels = round.loss() > self.round.loss() || !round.loss().is_finite();
+            if !is_taken && may_be_pixels && !self.round.is_far() && self.round.gain > UNSETTLED {
                 pixels = settle(&pixels);
                 round = Round::new(data, &pixels, &pieces, noise, counts);
                 is_taken = takes(&round);
@@ -230,7 +247,11 @@ impl Model {
             let is_slow = round.loss() > (1.0 - SLOW) * self.round.loss();
             let is_stuck = is_slow && round.is_far();
             let came_down = round.left() <= self.round.left();
-            is_taken.then_some(Self { pixels, pieces, round, came_by: stride, came_down, is_stuck })
+            let share = (self.round.left() - round.left()) / self.round.gain;
+            let (kept, crawls) = (share > KEPT, !may_climb && share < CREEPING.1);
+            let (came_by, crept) = (stride, if crawls { self.crept + 1 } else { 0 });
+            let there = Self { pixels, pieces, round, came_by, kept, came_down, is_stuck, crept };
+            is_taken.then_some(there)
         })
     }
 

@@ -7,7 +7,7 @@ use super::data::Data;
 use super::evidence::Model;
 use super::exchange::exchange;
 use super::finished::finished;
-use super::fit::{Fit, fit};
+use super::fit::{Fit, fit, fit_beside};
 use super::lamps::FLICKER;
 use super::needless::drop_needless;
 use super::noise::Noise;
@@ -21,6 +21,7 @@ use super::tolerated::tolerated;
 use super::trust::Trust;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 const MOST_EFFECTS: usize = 4;
 /// What a flicker is that all frames see at rest.
@@ -306,9 +307,13 @@ impl<'a> Search<'a> {
                     block,
                     name: pass.name(block, candidates),
                     pieces: pieces(&[&[block], others].concat()),
+                    pixels: None,
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
-                let fitted_entrant = |entrant: Entrant| (entrant.block, fitted(entrant.pieces));
+                let fitted_entrant = |Entrant { block, pieces, pixels, .. }: Entrant| {
+                    let pixels = pixels.unwrap_or_else(|| Arc::clone(&current.pixels));
+                    (block, fit_beside(data, pixels, pieces, noise))
+                };
                 let fits: Vec<(usize, Fit)> = entrants.into_par_iter().map(fitted_entrant).collect();
                 let more = |fit: &Fit| fit.columns.len().saturating_sub(current.columns.len());
                 // Nor is a form exact beside what nobody described: what says the same by much fewer numbers is believed.

@@ -22,10 +22,11 @@ impl Stride {
     pub const ALL: [Self; 5] =
         [Self::Whole, Self::Damped(1e-2), Self::Damped(0.3), Self::Damped(10.0), Self::ShapesHeld];
 
-    /// All of them, from the one on that is damped less than this one, which was taken: what was too far there is likely to be here, and comes last.
-    pub fn and_after(self) -> impl Iterator<Item = Self> {
+    /// All of them, from this one on, which was taken, or, if it `kept` what was promised, from the one on that is damped less: what was too far there is
+    /// likely to be here, and comes last.
+    pub fn and_after(self, kept: bool) -> impl Iterator<Item = Self> {
         let place = Self::ALL.iter().position(|stride| *stride == self).unwrap_or(0);
-        let less = if self == Self::ShapesHeld { 0 } else { place.saturating_sub(1) };
+        let less = if self == Self::ShapesHeld { 0 } else { place.saturating_sub(usize::from(kept)) };
         Self::ALL.into_iter().cycle().skip(less).take(Self::ALL.len())
     }
 }
@@ -101,11 +102,16 @@ mod tests {
     #[test]
     fn strides_go_on_from_the_last_one() {
         let [whole, little, more, much, held] = Stride::ALL;
-        let after = |stride: Stride| stride.and_after().collect::<Vec<_>>();
+        let after = |stride: Stride| stride.and_after(true).collect::<Vec<_>>();
         assert_eq!(after(whole), Stride::ALL);
         assert_eq!(after(little), Stride::ALL);
         assert_eq!(after(more), [little, more, much, held, whole]);
         assert_eq!(after(much), [more, much, held, whole, little]);
+        assert_eq!(after(held), Stride::ALL);
+        // What led not nearly as far down as it should is damped as before.
+        let after = |stride: Stride| stride.and_after(false).collect::<Vec<_>>();
+        assert_eq!(after(whole), Stride::ALL);
+        assert_eq!(after(little), [little, more, much, held, whole]);
         assert_eq!(after(held), Stride::ALL);
     }
 }

@@ -9,7 +9,7 @@ use crate::widest::widest;
 pub static EFFECT: Effect = Effect {
     name: "intensity_nonlinearity",
     sentence: "The pixel's response is not linear in the light, so harmonics appear that grow with the amplitude.",
-    reference: "I -> I + alpha I^2 + beta I^3; I -> I0 (I / I0)^(1 + gamma), I0 a quarter of full scale",
+    reference: "I -> I + alpha I^2 + beta I^3, up to where that turns back; I -> I0 (I / I0)^(1 + gamma), I0 a quarter of full scale",
     parameters: &[
         Parameter::strength("quadratic", "1", 0.0, (-0.6, 0.6), 0.02),
         Parameter::strength("cubic", "1", 0.0, (-0.6, 0.6), 0.02),
@@ -38,10 +38,35 @@ fn act(values: &[f64], exposure: &mut Exposure) {
             }
         });
     }
-    widest!((signals: &'a mut [f64], full_scale_dn: f64, quadratic: f64, cubic: f64) {
+    let most = turning(quadratic, cubic);
+    widest!((signals: &'a mut [f64], full_scale_dn: f64, quadratic: f64, cubic: f64, most: f64) {
         for signal in signals {
             let share = *signal / full_scale_dn;
-            *signal += *signal * share * (quadratic + cubic * share);
+            let share = if share > most { most } else { share };
+            *signal = full_scale_dn * share * (1.0 + share * (quadratic + cubic * share));
         }
     });
+}
+
+/// Where the curve turns back, over full scale: no pixel shows less of more light, so it stays there.
+fn turning(quadratic: f64, cubic: f64) -> f64 {
+    // 1 + 2 a s + 3 b s^2 = 0, of which the first place beyond darkness counts.
+    let square = quadratic.powi(2) - 3.0 * cubic;
+    let place = (square.max(0.0).sqrt() - quadratic).recip();
+    if square >= 0.0 && place > 0.0 { place } else { f64::INFINITY }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: 1 - 0.6 s is nothing at 5/3, 1 - 0.3 s^2 at 1.826, 1 - 2 s + 0.75 s^2 at 2/3 and 2.
+    #[test]
+    fn a_response_turns_back_where_its_slope_is_nothing() {
+        let is = |quadratic: f64, cubic: f64, place: f64| (turning(quadratic, cubic) - place).abs() < 1e-3;
+        assert!(is(-0.3, 0.0, 5.0 / 3.0) && is(0.0, -0.1, 1.826) && is(-1.0, 0.25, 2.0 / 3.0));
+        for never in [[0.0, 0.0], [0.3, 0.0], [0.0, 0.1], [-0.1, 0.2], [0.5, 0.05]] {
+            assert_eq!(turning(never[0], never[1]), f64::INFINITY, "{never:?}");
+        }
+    }
 }
