@@ -1,5 +1,5 @@
 //! `vuris diagnose` on what is known by one form, and comes in another: wells that few samples fill, shifters of many settings, encoders that control what they
-//! measure, noise of few samples, emitters on one side, scatter nearby.
+//! measure, noise of few samples, emitters on one side, scatter nearby, taps of half a turn, bits of a wrong weight, walls as bright from afar.
 
 mod diagnosed;
 mod rewritten;
@@ -140,6 +140,44 @@ fn an_encoder_that_errs_within_a_set_is_no_jitter() {
         "encoder_cyclic:cosine_m=0.002,sine_m=0.001,period_m=0.13,controls_carriage=1",
     );
     assert_eq!(parameter(&verdict, "controls_carriage").0, 1.0);
+}
+
+/// Taps that exchange the halves of a turn: frames 2 and 3 of four, and the third of the steps of a third of a turn. Eight gains of frames say no more.
+#[test]
+fn taps_of_half_a_turn_are_taps() {
+    let verdict = explained("four-motion,wdft-rail", "tap_mismatch:gain=0.004,by_half_turn=1");
+    let (found, sigma) = parameter(&verdict, "gain");
+    assert!((found - 0.004).abs() < 4.0 * sigma && sigma < 0.001, "{found} +- {sigma}");
+    assert_eq!(parameter(&verdict, "by_half_turn").0, 1.0);
+}
+
+/// A bit of a wrong weight is a square wave over the codes.
+#[test]
+fn a_bit_of_a_wrong_weight_is_the_converters() {
+    let wave = "adc_nonlinearity:cosine_dn=0,sine_dn=1.5,period_dn=256,form=1";
+    let verdict = explained("four-rail,wdft-rail", wave);
+    let (found, sigma) = parameter(&verdict, "sine_dn");
+    assert!((found - 1.5).abs() < 4.0 * sigma, "{found} +- {sigma}");
+    assert_eq!(parameter(&verdict, "form").0, 1.0);
+}
+
+/// Light by way of a wall that is as bright at any distance, or falls with the square of its way, leaves nothing to a second name.
+#[test]
+fn a_longer_way_is_one_however_its_light_falls() {
+    for fall in ["-1", "-2"] {
+        let way = format!("relative_amplitude=0.05,wall_distance_m=0.8,is_longer_by_a_constant={fall}");
+        let verdict =
+            explained("four-motion,four-rail,wdft-rail", &format!("multipath_interference:{way}"));
+        let (found, sigma) = parameter(&verdict, "wall_distance_m");
+        assert!((found - 0.8).abs() < 4.0 * sigma, "{fall}: {found} +- {sigma}");
+    }
+}
+
+/// Codes without their four low bits are off by what repeats every 16 of them.
+#[test]
+fn codes_without_four_bits_are_explained() {
+    let verdict = explained("four-rail,wdft-rail", "fixed_point:bits_cut=4");
+    assert_eq!(verdict["remainder"]["share"], 0.0, "{verdict:#}");
 }
 
 /// Nobody states how far the background is. At one frequency its pixels' own phases say it, and another frequency's are not asked.

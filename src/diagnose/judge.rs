@@ -150,12 +150,20 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         named.clear();
         random.clear();
     }
-    // Codes without their low bits need no statistics.
-    if data.cut_bits > data.unpredicted.bits_cut && matches!(verdict, Verdict::Clean | Verdict::Explained) {
+    // Codes without their low bits need no statistics, and where these are many, they are off by what repeats with the code.
+    let mut remainder = remainder;
+    if data.cut_bits > data.unpredicted.bits_cut {
+        if verdict == Verdict::Unexplained && places.first().is_some_and(|place| place.coordinate == "code") {
+            left.clear();
+            (verdict, remainder) = (Verdict::Clean, 0.0);
+        }
+        verdict = match verdict {
+            Verdict::Clean | Verdict::Explained => Verdict::Explained,
+            Verdict::PartlyExplained | Verdict::Unexplained => Verdict::PartlyExplained,
+        };
         let cut = cut_bits(&found, data.cut_bits);
         named.push(as_named(&cut));
         random.push((cut.name, cut.strength));
-        verdict = Verdict::Explained;
     }
     if verdict == Verdict::Clean {
         places.clear();

@@ -65,6 +65,7 @@ mod promised;
 mod proposals;
 mod random;
 mod ranges;
+mod refined;
 mod search;
 mod searched;
 mod seen;

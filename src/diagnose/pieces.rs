@@ -4,6 +4,7 @@ use super::data::Data;
 use super::included::included_of;
 use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
+use super::refined::is_seldom;
 use crate::physics::{Active, EFFECTS, Effect, Parameter};
 use crate::recording::BASELINE;
 
@@ -304,8 +305,9 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let seen_dn = if effect.name == SMOOTH.0 { data.span_dn() } else { f64::INFINITY };
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
     let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));
+    let usual_choices = choices.iter().filter(|&&chosen| !is_seldom(effect.name, chosen));
     let ways =
-        choices.iter().flat_map(|&chosen| shapes.iter().filter(is_within).map(move |&value| (chosen, value)));
+        usual_choices.flat_map(|&chosen| shapes.iter().filter(is_within).map(move |&value| (chosen, value)));
     for (chosen, value) in ways {
         let mut values = effect.off();
         shape.into_iter().for_each(|shape| values[shape] = value);

@@ -16,6 +16,7 @@ use super::pass::{Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates};
 use super::power::Detectable;
 use super::promised::Promised;
+use super::refined::refined;
 use super::simpler::Simpler;
 use super::tolerated::tolerated;
 use super::trust::Trust;
@@ -349,7 +350,7 @@ impl<'a> Search<'a> {
         let far_choice = if is_broken && !is_far { lead(true) } else { None };
         let is_far = is_far || far_choice.is_some();
         let (best, fitted, near) = far_choice.unwrap_or(first_choice);
-        let fitted = finished(data, fitted, noise);
+        let fitted = refined(data, finished(data, fitted, noise), noise);
         rivals.extend(near);
         let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, candidates) == rival);
         rivals.retain(|rival| !own(rival));

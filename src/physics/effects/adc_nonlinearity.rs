@@ -13,7 +13,8 @@ const MOST: f64 = 0.02;
 /// The longest period in full scales: that of the first bit, all codes, of which some are below the pedestal.
 const LONGEST: f64 = 1.05;
 
-/// An error that is periodic in the code: its parts, and its period.
+/// An error that is periodic in the code: its parts, and its period; a wave (0), or one with the first odd harmonics of what a bit of a wrong weight makes, a
+/// square wave (1), or of a triangle (-1), as the noise leaves them.
 pub static EFFECT: Effect = Effect {
     name: "adc_nonlinearity",
     sentence: "The converter's code is off by an amount that repeats with the code (integral non-linearity of its stages).",
@@ -22,6 +23,7 @@ pub static EFFECT: Effect = Effect {
         Parameter::strength("cosine_dn", "DN", 0.0, (-50.0, 50.0), 1.0).within_full_scales(MOST),
         Parameter::strength("sine_dn", "DN", 0.0, (-50.0, 50.0), 1.0).within_full_scales(MOST),
         Parameter::shape("period_dn", "DN", 256.0, (16.0, 81_920.0), SHAPES).within_full_scales(LONGEST),
+        Parameter::choice("form", "1", &[0.0, -1.0, 1.0]),
     ],
     place: Place::Readout,
     chance: Chance::None,
@@ -29,10 +31,30 @@ pub static EFFECT: Effect = Effect {
     act: Act::Code(act),
 };
 
+/// Third and fifth harmonic of a square wave, and of a triangle, over the first.
+const ODD: [[f64; 2]; 2] = [[-1.0 / 3.0, 1.0 / 9.0], [1.0 / 5.0, 1.0 / 25.0]];
+
 fn act(values: &[f64], exposure: &mut Exposure) {
     let (pedestal_dn, cosine_dn, sine_dn, period_dn) =
         (exposure.pixels.pedestal_dn, values[0], values[1], values[2]);
+    let [third, fifth] = ODD.map(|odd| if values[3] > 0.5 { odd[0] } else { odd[1] });
+    let amplitude_dn = cosine_dn.hypot(sine_dn);
+    let has_harmonics = values[3] != 0.0 && amplitude_dn > 0.0;
     let signals: &mut [f64] = &mut exposure.signal_dn;
+    if has_harmonics {
+        widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, amplitude_dn: f64, period_dn: f64,
+                 third: f64, fifth: f64) {
+            for signal in signals {
+                let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / period_dn);
+                let wave = (cosine_dn * cosine + sine_dn * sine) / amplitude_dn;
+                let square = wave * wave;
+                // Chebyshev's polynomials of the third and the fifth.
+                let harmonics = third * (4.0 * square - 3.0) + fifth * ((16.0 * square - 20.0) * square + 5.0);
+                *signal += amplitude_dn * wave * (1.0 + harmonics);
+            }
+        });
+        return;
+    }
     widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, period_dn: f64) {
         for signal in signals {
             let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / period_dn);

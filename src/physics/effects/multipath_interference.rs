@@ -6,8 +6,8 @@ use crate::widest::widest;
 
 /// A second return by way of a wall that stands beside the path of the light, at the same distance all along: out directly, back by the
 /// wall's mirror image, √(d² + 4 L²) for a target at d. Its amplitude relative to the direct one is the parameter, were the wall close,
-/// and less by the longer way. Or, whatever the target's distance, a way longer by as much as the wall is away, out and back together twice that, of
-/// light that falls off with it.
+/// and less by the longer way (0), by its square, out and back (-2), or as it is at any distance (-1). Or, whatever the target's distance, a way longer by as much as the wall is away, out and back together twice that, of
+/// light that falls off with it (1).
 pub static EFFECT: Effect = Effect {
     name: "multipath_interference",
     sentence: "Part of the light reaches the pixel by a longer way (a wall, another surface), and its phasor adds to the direct one.",
@@ -15,7 +15,7 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("relative_amplitude", "1", 0.0, (0.0, 0.8), 0.1),
         Parameter::shape("wall_distance_m", "m", 0.6, (0.02, 6.0), &[0.15, 0.4, 0.8, 1.5]),
-        Parameter::choice("is_longer_by_a_constant", "1", &[0.0, 1.0]),
+        Parameter::choice("is_longer_by_a_constant", "1", &[0.0, -1.0, -2.0, 1.0]),
     ],
     place: Place::Correlation,
     chance: Chance::None,
@@ -28,6 +28,8 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     if share == 0.0 {
         return;
     }
+    // By this power of the longer way the light is less.
+    let fall = if values[2] < -1.5 { 2 } else { i32::from(values[2] > -0.5) };
     let is_constant = values[2] > 0.5;
     let count = exposure.range_m.len();
     let (mut amplitudes_dn, mut phases_rad) = (vec![0.0; count], vec![0.0; count]);
@@ -42,7 +44,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         let signals_dn: &mut [f64] = &mut exposure.signal_dn;
         let (amplitudes_dn, phases_rad) = (&mut amplitudes_dn[..], &mut phases_rad[..]);
         widest!((direct: Direct<'a>, target: &'a [bool], share: f64, wall_m: f64,
-                 is_constant: bool, frequency_hz: f64, signals_dn: &'a mut [f64],
+                 is_constant: bool, fall: i32, frequency_hz: f64, signals_dn: &'a mut [f64],
                  amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
             let light = direct.amplitude_dn.iter().zip(direct.constant_dn);
             let ways = direct.range_m.iter().zip(direct.phase_rad).zip(target).zip(light);
@@ -54,7 +56,12 @@ fn act(values: &[f64], exposure: &mut Exposure) {
                     (range_m + 2.0 * wall_m, share * (nearer * nearer))
                 } else {
                     let back_m = (range_m * range_m + 4.0 * wall_m * wall_m).sqrt();
-                    (back_m, share * range_m / back_m)
+                    let nearer = match fall {
+                        2 => (2.0 * range_m / (range_m + back_m)) * (2.0 * range_m / (range_m + back_m)),
+                        1 => range_m / back_m,
+                        _ => 1.0,
+                    };
+                    (back_m, share * nearer)
                 };
                 // Light that comes by the wall goes to the target.
                 let part = if *is_target { part } else { 0.0 };
