@@ -1,5 +1,5 @@
 //! `vuris diagnose` on what is known by one form, and comes in another: wells that few samples fill, shifters of many settings, encoders that control what they
-//! measure, noise of few samples, emitters on one side, scatter nearby, taps of half a turn, bits of a wrong weight, walls as bright from afar.
+//! measure, noise of few samples, emitters on one side, scatter nearby, taps of half a turn, bits of a wrong weight, walls by another law.
 
 mod diagnosed;
 mod rewritten;
@@ -142,7 +142,7 @@ fn an_encoder_that_errs_within_a_set_is_no_jitter() {
     assert_eq!(parameter(&verdict, "controls_carriage").0, 1.0);
 }
 
-/// Taps that exchange the halves of a turn: frames 2 and 3 of four, and the third of the steps of a third of a turn. Eight gains of frames say no more.
+/// Taps that exchange the halves of a turn: frames 2 and 3 of four, and the third of the steps of a third of a turn. Seven gains of frames say no more.
 #[test]
 fn taps_of_half_a_turn_are_taps() {
     let verdict = explained("four-motion,wdft-rail", "tap_mismatch:gain=0.004,by_half_turn=1");
@@ -161,13 +161,13 @@ fn a_bit_of_a_wrong_weight_is_the_converters() {
     assert_eq!(parameter(&verdict, "form").0, 1.0);
 }
 
-/// Light by way of a wall that is as bright at any distance, or falls with the square of its way, leaves nothing to a second name.
+/// Light by way of a wall that is the same share at any distance, or falls with the square of its way, leaves nothing to a second name.
 #[test]
 fn a_longer_way_is_one_however_its_light_falls() {
     for fall in ["-1", "-2"] {
         let way = format!("relative_amplitude=0.05,wall_distance_m=0.8,is_longer_by_a_constant={fall}");
-        let verdict =
-            explained("four-motion,four-rail,wdft-rail", &format!("multipath_interference:{way}"));
+        let verdict = explained("four-motion,four-rail,wdft-rail", &format!("multipath_interference:{way}"));
+        assert_eq!(parameter(&verdict, "is_longer_by_a_constant").0.to_string(), fall);
         let (found, sigma) = parameter(&verdict, "wall_distance_m");
         assert!((found - 0.8).abs() < 4.0 * sigma, "{fall}: {found} +- {sigma}");
     }

@@ -33,8 +33,8 @@ pub struct Entrant {
     pub name: &'static str,
     /// Pieces of the fit.
     pub pieces: Vec<Piece>,
-    /// The pixels beside these, where they are known already.
-    pub pixels: Option<Arc<Pixels>>,
+    /// Pixels from which it begins.
+    pub pixels: Arc<Pixels>,
 }
 
 /// Those of the `entrants` that may explain about as much of what `current` leaves as the best one, as they fit the part: most of the way has been gone
@@ -71,8 +71,8 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         // What takes residuals from many standard deviations to a few explains next to nothing of what counts.
         stays.iter_mut().zip(stay(&Fit::left)).for_each(|(stays, by_all)| *stays |= by_all);
     }
-    let end = |(entrant, fit): (Entrant, Fit)| match fit.chi2.is_finite() {
-        true => Entrant { pieces: fit.pieces, pixels: Some(fit.pixels), ..entrant },
+    let end = |(entrant, fit): (Entrant, Fit)| match fit.left() <= before.left() {
+        true => Entrant { pieces: fit.pieces, pixels: fit.pixels, ..entrant },
         false => entrant,
     };
     entrants.into_iter().zip(fits).zip(stays).filter(|(_, stays)| *stays).map(|(both, _)| end(both)).collect()

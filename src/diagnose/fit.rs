@@ -118,7 +118,7 @@ impl Fit {
 /// So many steps downhill that each take away less than this share of what they promise are the end: down a long and bent valley many are, and little
 /// comes of them.
 const CREEPING: (usize, f64) = (2, 0.01);
-/// Where a step took away this share of what was promised the next one is damped less.
+/// Where a step took away this share of what it promised the next one is damped less.
 const KEPT: f64 = 0.5;
 /// By at least this share a step far from the minimum must lower the sum of squares for another one to be taken.
 const SLOW: f64 = 1e-3;
@@ -184,8 +184,7 @@ fn fit_from(
     let step = |here: &Model, may_climb: bool| {
         // Shapes are fitted from the second step on only, on a hill nothing is known of the valley behind it, and far from the data steps promise too little.
         let is_hopeless = here.came_down && !here.round.is_far() && here.round.hoped() > most;
-        let is_there =
-            here.is_stuck || here.crept == CREEPING.0 || is_hopeless || here.round.gain < enough;
+        let is_there = here.is_stuck || here.crept == CREEPING.0 || is_hopeless || here.round.gain < enough;
         if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
     };
     descend(start, ITERATIONS, enough, &step, &|model| model.round.left()).end()
@@ -222,7 +221,8 @@ impl Model {
         let is_another =
             |stride: &Stride| *stride != Stride::ShapesHeld || self.round.has_shapes(&self.pieces);
         self.came_by.and_after(self.kept).filter(is_another).find_map(|stride| {
-            let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), stride);
+            let theta = self.round.theta(&self.pixels, &self.pieces, stride);
+            let (mut pixels, pieces) = self.round.step(&self.pixels, self.pieces.clone(), &theta);
             let settle = |pixels: &Arc<Pixels>| {
                 settled(data, pixels, Some(&self.pixels), SETTLINGS, &pieces, noise, counts)
             };
@@ -247,7 +247,7 @@ impl Model {
             let is_slow = round.loss() > (1.0 - SLOW) * self.round.loss();
             let is_stuck = is_slow && round.is_far();
             let came_down = round.left() <= self.round.left();
-            let share = (self.round.left() - round.left()) / self.round.gain;
+            let share = (self.round.left() - round.left()) / self.round.promise(&theta);
             let (kept, crawls) = (share > KEPT, !may_climb && share < CREEPING.1);
             let (came_by, crept) = (stride, if crawls { self.crept + 1 } else { 0 });
             let there = Self { pixels, pieces, round, came_by, kept, came_down, is_stuck, crept };
@@ -270,11 +270,8 @@ pub fn improved(
     noise: Noise,
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> (Arc<Pixels>, Vec<Piece>) {
-    Round::new(data, &fit.pixels, &fit.pieces, noise, counts).step(
-        &fit.pixels,
-        fit.pieces.clone(),
-        Stride::Whole,
-    )
+    let round = Round::new(data, &fit.pixels, &fit.pieces, noise, counts);
+    round.step(&fit.pixels, fit.pieces.clone(), &round.theta)
 }
 
 /// The normal equations around a model, solved.
@@ -335,11 +332,28 @@ impl Round {
         self.columns.iter().any(|column| is_shape(column, pieces))
     }
 
-    /// `pixels` and `pieces`, moved by the `stride`.
-    fn step(&self, pixels: &Pixels, mut pieces: Vec<Piece>, stride: Stride) -> (Arc<Pixels>, Vec<Piece>) {
-        let other = || bounded_step(&self.projected, &self.columns, &pieces, pixels.full_scale_dn, stride).0;
-        let theta = if stride == Stride::Whole { self.theta.clone() } else { other() };
-        let pixels = Arc::new(moved(pixels, &self.projected.own(&theta), 1.0));
+    /// The step of all numbers by the `stride`.
+    fn theta(&self, pixels: &Pixels, pieces: &[Piece], stride: Stride) -> DVector<f64> {
+        match stride {
+            Stride::Whole => self.theta.clone(),
+            _ => bounded_step(&self.projected, &self.columns, pieces, pixels.full_scale_dn, stride).0,
+        }
+    }
+
+    /// By how much a step `theta` should lower chi squared, the pixels' own numbers' part included.
+    fn promise(&self, theta: &DVector<f64>) -> f64 {
+        let Projected { matrix, vector, settled, .. } = &self.projected;
+        settled + 2.0 * theta.dot(vector) - theta.dot(&(matrix * theta))
+    }
+
+    /// `pixels` and `pieces`, moved by the step `theta`.
+    fn step(
+        &self,
+        pixels: &Pixels,
+        mut pieces: Vec<Piece>,
+        theta: &DVector<f64>,
+    ) -> (Arc<Pixels>, Vec<Piece>) {
+        let pixels = Arc::new(moved(pixels, &self.projected.own(theta), 1.0));
         for (column, step) in self.columns.iter().zip(theta.iter()) {
             let piece = &mut pieces[column.piece];
             let parameter = &piece.effect.parameters[column.parameter];

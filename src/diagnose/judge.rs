@@ -112,6 +112,15 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
             })
     };
     let most_left = left.iter().filter(is_left).max_by(|a, b| a.excess().total_cmp(&b.excess()));
+    // Codes without many bits are off by what repeats with these, and stands out over nothing else.
+    let is_cut = data.cut_bits > data.unpredicted.bits_cut;
+    let is_of_cut = is_cut
+        && named.is_empty()
+        && !are_dropped
+        && baseline
+            .period_dn
+            .is_some_and(|period_dn| is_part_of(f64::from(1_u32 << data.cut_bits.min(16)), period_dn))
+        && left.iter().filter(is_left).all(|place| place.coordinate == "code");
     let rest = most_left.map_or(0.0, |place| place.excess().max(0.0));
     let left_there = most_left.map_or(0.0, |place| left_of(&places, place));
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
@@ -150,17 +159,20 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         named.clear();
         random.clear();
     }
-    // Codes without their low bits need no statistics, and where these are many, they are off by what repeats with the code.
+    // Codes without their low bits need no statistics.
     let mut remainder = remainder;
-    if data.cut_bits > data.unpredicted.bits_cut {
-        if verdict == Verdict::Unexplained && places.first().is_some_and(|place| place.coordinate == "code") {
-            left.clear();
-            (verdict, remainder) = (Verdict::Clean, 0.0);
-        }
-        verdict = match verdict {
-            Verdict::Clean | Verdict::Explained => Verdict::Explained,
-            Verdict::PartlyExplained | Verdict::Unexplained => Verdict::PartlyExplained,
+    if is_cut {
+        (verdict, remainder) = match verdict {
+            Verdict::Clean | Verdict::Explained => (Verdict::Explained, remainder),
+            Verdict::Unexplained if is_of_cut => (Verdict::Explained, 0.0),
+            Verdict::Unexplained => (Verdict::PartlyExplained, 1.0),
+            Verdict::PartlyExplained => (verdict, remainder),
         };
+        if remainder == 1.0 {
+            left.clone_from(&places);
+        } else if is_of_cut {
+            left.clear();
+        }
         let cut = cut_bits(&found, data.cut_bits);
         named.push(as_named(&cut));
         random.push((cut.name, cut.strength));
@@ -173,6 +185,15 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
     let locations = [baseline, after];
     Judgement { verdict, places, left, named, remainder, locations, random, found, fit, noise, shared_noise }
+}
+
+/// How exactly a wave over the codes shows its period, of the periods in the other one.
+const PERIOD_TO: f64 = 0.03;
+
+/// Whether `whole` is once, twice or more the period `part`.
+fn is_part_of(whole: f64, part: f64) -> bool {
+    let times = whole / part;
+    times > 1.0 - PERIOD_TO && (times - times.round()).abs() < PERIOD_TO
 }
 
 /// A coordinate in which a mismatch says this share of what it says where it lives most may be where it lives.

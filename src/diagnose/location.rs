@@ -43,6 +43,8 @@ pub struct Location {
     pub jitters: Jitters,
     /// The recording with the greatest misfit.
     pub take: usize,
+    /// Period of the strongest wave over the codes, DN.
+    pub period_dn: Option<f64>,
     /// Mean residuals over coordinates.
     pub curves: Vec<Profile>,
     /// Root of each pixel's chi squared a sample.
@@ -108,7 +110,9 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
             Located::wave("time_s", format!("{}, a swing of {:.3} Hz", swing.mode, swing.hz), swing.found)
         }
     }));
-    columns.extend(codes.strongest().map(|wave| {
+    let wave_over_codes = codes.strongest();
+    let period_dn = wave_over_codes.as_ref().map(|wave| wave.period_dn);
+    columns.extend(wave_over_codes.map(|wave| {
         let shape = format!("with a period of {:.1} DN", wave.period_dn);
         Located::wave("code", shape, wave.found)
     }));
@@ -124,6 +128,7 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         clusters: ranked,
         jitters: clusters.jitters,
         take: base.series.worst_take(),
+        period_dn,
         curves: profiles.curves(&ranges),
         map: profiles.map(),
     }

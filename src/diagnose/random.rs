@@ -290,6 +290,7 @@ mod tests {
                 clusters: Vec::new(),
                 jitters: Jitters::default(),
                 take: 0,
+                period_dn: None,
                 curves: Vec::new(),
                 map: Vec::new(),
             };

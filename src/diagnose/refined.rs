@@ -26,11 +26,11 @@ fn with_choice(piece: &Piece, chosen: f64) -> Piece {
     piece
 }
 
-/// What is `fitted`, or the same with an effect that it has in a form that is seldom, where that fits clearly better by no more numbers.
-pub fn refined(data: &Data, fitted: Fit, noise: Noise) -> Fit {
+/// What is `fitted`, or the same with an effect of which `is_new` in a form that is seldom, where that fits clearly better by no more numbers.
+pub fn refined(data: &Data, fitted: Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Fit {
     let other = |name: &str, chosen: f64| -> Option<Vec<Piece>> {
         let is_of = |piece: &Piece| piece.effect.name == name;
-        fitted.pieces.iter().any(is_of).then(|| {
+        (is_new(name) && fitted.pieces.iter().any(is_of)).then(|| {
             let anew = |piece: &Piece| if is_of(piece) { with_choice(piece, chosen) } else { piece.clone() };
             fitted.pieces.iter().map(anew).collect()
         })
@@ -40,8 +40,9 @@ pub fn refined(data: &Data, fitted: Fit, noise: Noise) -> Fit {
     let most = fitted.cost() - NEEDED_NATS;
     let fits: Vec<Fit> =
         tried.into_par_iter().map(|pieces| fit_below(data, &fitted, pieces, noise, most)).collect();
-    let best = fits.into_iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
-    match best.filter(|best| best.cost() < most) {
+    // One that is no number is none.
+    let better = fits.into_iter().filter(|fit| fit.cost() < most);
+    match better.min_by(|a, b| a.cost().total_cmp(&b.cost())) {
         Some(best) => finished(data, best, noise),
         None => fitted,
     }
@@ -69,7 +70,9 @@ mod tests {
             let mut piece = Piece::off(OF_CODES, &[0, 1], &[0]);
             piece.values[2] = 200.0;
             let wave = fit(&data, Some(&baseline), vec![piece], noise, &|_| true);
-            let fitted = refined(&data, wave.clone(), noise);
+            let fitted = refined(&data, wave.clone(), noise, &|_| true);
+            let old = refined(&data, wave.clone(), noise, &|_| false);
+            assert_eq!(old.pieces[0].values, wave.pieces[0].values);
             let values = &fitted.pieces[0].values;
             assert!(values[3] == chosen && (fitted.left() < wave.left()) == (chosen != 0.0), "{values:?}");
             assert!((values[0] - 3.0).hypot(values[1] + 4.0) < 0.3, "{values:?}");

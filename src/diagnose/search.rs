@@ -308,11 +308,10 @@ impl<'a> Search<'a> {
                     block,
                     name: pass.name(block, candidates),
                     pieces: pieces(&[&[block], others].concat()),
-                    pixels: None,
+                    pixels: Arc::clone(&current.pixels),
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
                 let fitted_entrant = |Entrant { block, pieces, pixels, .. }: Entrant| {
-                    let pixels = pixels.unwrap_or_else(|| Arc::clone(&current.pixels));
                     (block, fit_beside(data, pixels, pieces, noise))
                 };
                 let fits: Vec<(usize, Fit)> = entrants.into_par_iter().map(fitted_entrant).collect();
@@ -350,7 +349,8 @@ impl<'a> Search<'a> {
         let far_choice = if is_broken && !is_far { lead(true) } else { None };
         let is_far = is_far || far_choice.is_some();
         let (best, fitted, near) = far_choice.unwrap_or(first_choice);
-        let fitted = refined(data, finished(data, fitted, noise), noise);
+        let is_new = |name: &str| best.blocks.iter().any(|&block| pass.name(block, candidates) == name);
+        let fitted = refined(data, finished(data, fitted, noise), noise, &is_new);
         rivals.extend(near);
         let own = |rival: &String| best.blocks.iter().any(|&block| pass.name(block, candidates) == rival);
         rivals.retain(|rival| !own(rival));

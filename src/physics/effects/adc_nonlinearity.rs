@@ -13,8 +13,8 @@ const MOST: f64 = 0.02;
 /// The longest period in full scales: that of the first bit, all codes, of which some are below the pedestal.
 const LONGEST: f64 = 1.05;
 
-/// An error that is periodic in the code: its parts, and its period; a wave (0), or one with the first odd harmonics of what a bit of a wrong weight makes, a
-/// square wave (1), or of a triangle (-1), as the noise leaves them.
+/// An error that is periodic in the code: its parts, and its period; a wave (0), or one with the third and fifth harmonic of what a bit of a wrong weight
+/// makes, a square wave (1, from top to bottom pi / 2 times this fundamental), or of a triangle (-1): the noise leaves little of higher ones.
 pub static EFFECT: Effect = Effect {
     name: "adc_nonlinearity",
     sentence: "The converter's code is off by an amount that repeats with the code (integral non-linearity of its stages).",

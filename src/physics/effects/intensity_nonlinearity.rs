@@ -38,12 +38,12 @@ fn act(values: &[f64], exposure: &mut Exposure) {
             }
         });
     }
-    let most = turning(quadratic, cubic);
+    let most = full_scale_dn * turning(quadratic, cubic);
     widest!((signals: &'a mut [f64], full_scale_dn: f64, quadratic: f64, cubic: f64, most: f64) {
         for signal in signals {
-            let share = *signal / full_scale_dn;
-            let share = if share > most { most } else { share };
-            *signal = full_scale_dn * share * (1.0 + share * (quadratic + cubic * share));
+            let linear = if *signal > most { most } else { *signal };
+            let share = linear / full_scale_dn;
+            *signal = linear + linear * share * (quadratic + cubic * share);
         }
     });
 }
@@ -53,7 +53,7 @@ fn turning(quadratic: f64, cubic: f64) -> f64 {
     // 1 + 2 a s + 3 b s^2 = 0, of which the first place beyond darkness counts.
     let square = quadratic.powi(2) - 3.0 * cubic;
     let place = (square.max(0.0).sqrt() - quadratic).recip();
-    if square >= 0.0 && place > 0.0 { place } else { f64::INFINITY }
+    if square > 0.0 && place > 0.0 { place } else { f64::INFINITY }
 }
 
 #[cfg(test)]
@@ -65,7 +65,8 @@ mod tests {
     fn a_response_turns_back_where_its_slope_is_nothing() {
         let is = |quadratic: f64, cubic: f64, place: f64| (turning(quadratic, cubic) - place).abs() < 1e-3;
         assert!(is(-0.3, 0.0, 5.0 / 3.0) && is(0.0, -0.1, 1.826) && is(-1.0, 0.25, 2.0 / 3.0));
-        for never in [[0.0, 0.0], [0.3, 0.0], [0.0, 0.1], [-0.1, 0.2], [0.5, 0.05]] {
+        // At 1 - 2 s + s^2 it stands, and goes on.
+        for never in [[0.0, 0.0], [0.3, 0.0], [0.0, 0.1], [-0.1, 0.2], [0.5, 0.05], [-1.0, 1.0 / 3.0]] {
             assert_eq!(turning(never[0], never[1]), f64::INFINITY, "{never:?}");
         }
     }

@@ -6,7 +6,7 @@ use crate::widest::widest;
 
 /// A second return by way of a wall that stands beside the path of the light, at the same distance all along: out directly, back by the
 /// wall's mirror image, √(d² + 4 L²) for a target at d. Its amplitude relative to the direct one is the parameter, were the wall close,
-/// and less by the longer way (0), by its square, out and back (-2), or as it is at any distance (-1). Or, whatever the target's distance, a way longer by as much as the wall is away, out and back together twice that, of
+/// and less by the longer way (0), by its square, out and back (-2), or at any distance the same share of the direct light (-1). Or, whatever the target's distance, a way longer by as much as the wall is away, out and back together twice that, of
 /// light that falls off with it (1).
 pub static EFFECT: Effect = Effect {
     name: "multipath_interference",

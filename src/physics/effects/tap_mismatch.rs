@@ -1,10 +1,10 @@
 //! Two taps that take turns, and are not alike.
 
 use crate::physics::{Act, Chance, Effect, Exposure, Moment, Parameter, Place};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-/// Turns by which a step may be off half a turn.
-const ROUNDED: f64 = 1e-6;
+/// Steps are what they are taken for within this, rad, in recordings.
+const ROUNDED_RAD: f64 = 1e-4;
 
 /// Relative gain of one tap against that of the other, less 1, and its pedestal. The taps take turns, and the odd frames are this one's (0); or it has the
 /// frames of the second half of a turn, whose steps the sensor makes by exchanging its taps (1).
@@ -26,8 +26,7 @@ pub static EFFECT: Effect = Effect {
 fn act(values: &[f64], exposure: &mut Exposure) {
     let Moment { frame, step_rad, .. } = exposure.moment;
     let is_second = match values[2] > 0.5 {
-        // Half a turn is a step of the second half, however it is rounded.
-        true => (step_rad / TAU + ROUNDED).rem_euclid(1.0) >= 0.5,
+        true => is_of_second_half(step_rad),
         false => frame % 2 == 1,
     };
     let side = if is_second { 0.5 } else { -0.5 };
@@ -35,4 +34,25 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         .signal_dn
         .iter_mut()
         .for_each(|signal| *signal = *signal * (1.0 + side * values[0]) + side * values[1]);
+}
+
+/// Whether a phase step is of the second half of a turn, as half a turn is and a whole one is not, however they are rounded.
+fn is_of_second_half(step_rad: f64) -> bool {
+    (step_rad + ROUNDED_RAD).rem_euclid(TAU) >= PI
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_is_of_a_half_however_it_is_rounded() {
+        let off = 9e-5;
+        for first in [0.0, -off, off, 0.5 * PI, PI - 0.01, TAU, TAU - off, 2.0 * PI / 3.0, 8.0 * PI / 3.0] {
+            assert!(!is_of_second_half(first), "{first}");
+        }
+        for second in [PI, PI - off, PI + off, 1.5 * PI, -0.5 * PI, 4.0 * PI / 3.0, 5.0 * PI, TAU - 0.01] {
+            assert!(is_of_second_half(second), "{second}");
+        }
+    }
 }
