@@ -1,13 +1,11 @@
 //! Fits of several effects of which one is to be chosen: what a part of the sets speaks against clearly is not fitted to all.
 
 use super::data::Data;
-use super::fit::{Fit, fit_until};
+use super::fit::{Fit, Led, fit_until};
 use super::noise::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
-use crate::physics::Pixels;
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// One set in so many of each recording is looked at first: no multiple of how often positions are repeated, as a rule.
 const PART: usize = 7;
@@ -33,8 +31,8 @@ pub struct Entrant {
     pub name: &'static str,
     /// Pieces of the fit.
     pub pieces: Vec<Piece>,
-    /// Pixels from which it begins.
-    pub pixels: Arc<Pixels>,
+    /// Where a part of the sets led it.
+    pub led: Option<Led>,
 }
 
 /// Those of the `entrants` that may explain about as much of what `current` leaves as the best one, as they fit the part: most of the way has been gone
@@ -71,10 +69,7 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         // What takes residuals from many standard deviations to a few explains next to nothing of what counts.
         stays.iter_mut().zip(stay(&Fit::left)).for_each(|(stays, by_all)| *stays |= by_all);
     }
-    let end = |(entrant, fit): (Entrant, Fit)| match fit.left() <= before.left() {
-        true => Entrant { pieces: fit.pieces, pixels: fit.pixels, ..entrant },
-        false => entrant,
-    };
+    let end = |(entrant, fit): (Entrant, Fit)| Entrant { led: Some((fit.pixels, fit.pieces)), ..entrant };
     entrants.into_iter().zip(fits).zip(stays).filter(|(_, stays)| *stays).map(|(both, _)| end(both)).collect()
 }
 

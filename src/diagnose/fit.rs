@@ -135,10 +135,17 @@ pub fn fit(
     fit_from(data, pixels, pieces, noise, counts, End { enough: ENOUGH, most: f64::INFINITY })
 }
 
-/// The same from `pixels` on, which are known already, to all sets.
-pub fn fit_beside(data: &Data, pixels: Arc<Pixels>, pieces: Vec<Piece>, noise: Noise) -> Fit {
+/// The same from where a part of the sets `led` it, pixels and pieces, if that fits all sets better than `from`: where effects are weak, what a part says of the
+/// pixels is too noisy to begin with.
+pub fn fit_led(data: &Data, from: &Fit, pieces: Vec<Piece>, led: Option<Led>, noise: Noise) -> Fit {
+    let fits =
+        |(pixels, pieces): &Led| Round::new(data, pixels, pieces, noise, &|_| true).left() < from.left();
+    let (pixels, pieces) = led.filter(fits).unwrap_or_else(|| (Arc::clone(&from.pixels), pieces));
     fit_from(data, pixels, pieces, noise, &|_| true, End { enough: ENOUGH, most: f64::INFINITY })
 }
+
+/// Pixels and pieces beside each other.
+pub type Led = (Arc<Pixels>, Vec<Piece>);
 
 /// The same from the pixels of `from` on, to all sets, given up where its [cost](Fit::cost) will clearly stay beyond `most`: what comes then costs more than
 /// that, and no more is known of it.

@@ -7,7 +7,7 @@ use super::data::Data;
 use super::evidence::Model;
 use super::exchange::exchange;
 use super::finished::finished;
-use super::fit::{Fit, fit, fit_beside};
+use super::fit::{Fit, fit, fit_led};
 use super::lamps::FLICKER;
 use super::needless::drop_needless;
 use super::noise::Noise;
@@ -22,7 +22,6 @@ use super::tolerated::tolerated;
 use super::trust::Trust;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 const MOST_EFFECTS: usize = 4;
 /// What a flicker is that all frames see at rest.
@@ -308,11 +307,11 @@ impl<'a> Search<'a> {
                     block,
                     name: pass.name(block, candidates),
                     pieces: pieces(&[&[block], others].concat()),
-                    pixels: Arc::clone(&current.pixels),
+                    led: None,
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
-                let fitted_entrant = |Entrant { block, pieces, pixels, .. }: Entrant| {
-                    (block, fit_beside(data, pixels, pieces, noise))
+                let fitted_entrant = |Entrant { block, pieces, led, .. }: Entrant| {
+                    (block, fit_led(data, current, pieces, led, noise))
                 };
                 let fits: Vec<(usize, Fit)> = entrants.into_par_iter().map(fitted_entrant).collect();
                 let more = |fit: &Fit| fit.columns.len().saturating_sub(current.columns.len());
