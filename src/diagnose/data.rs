@@ -377,6 +377,11 @@ impl Data {
         effects::named_among(name, &self.library)
     }
 
+    /// What codes are rounded to, DN, without the low bits that are never set.
+    pub fn unit_dn(&self) -> f64 {
+        f64::from(1_u32 << self.cut_bits.min(16))
+    }
+
     /// Number of pixels.
     pub fn pixels(&self) -> usize {
         self.geometry().pixels()

@@ -132,16 +132,16 @@ pub fn fit(
     counts: &(dyn Fn(usize) -> bool + Sync),
 ) -> Fit {
     let pixels = from.map_or_else(|| start(data, noise, counts), |fit| Arc::clone(&fit.pixels));
-    fit_from(data, pixels, pieces, noise, counts, End { enough: ENOUGH, most: f64::INFINITY })
+    Model::begun(data, pixels, pieces, noise, counts).fitted(data, noise, counts, WHOLE)
 }
 
 /// The same from where a part of the sets `led` it, pixels and pieces, if that fits all sets better than `from`: where effects are weak, what a part says of the
 /// pixels is too noisy to begin with.
 pub fn fit_led(data: &Data, from: &Fit, pieces: Vec<Piece>, led: Option<Led>, noise: Noise) -> Fit {
-    let fits =
-        |(pixels, pieces): &Led| Round::new(data, pixels, pieces, noise, &|_| true).left() < from.left();
-    let (pixels, pieces) = led.filter(fits).unwrap_or_else(|| (Arc::clone(&from.pixels), pieces));
-    fit_from(data, pixels, pieces, noise, &|_| true, End { enough: ENOUGH, most: f64::INFINITY })
+    let begun = |(pixels, pieces): Led| Model::begun(data, pixels, pieces, noise, &|_| true);
+    let led = led.map(begun).filter(|model| model.round.left() < from.left());
+    let start = led.unwrap_or_else(|| begun((Arc::clone(&from.pixels), pieces)));
+    start.fitted(data, noise, &|_| true, WHOLE)
 }
 
 /// Pixels and pieces beside each other.
@@ -150,7 +150,8 @@ pub type Led = (Arc<Pixels>, Vec<Piece>);
 /// The same from the pixels of `from` on, to all sets, given up where its [cost](Fit::cost) will clearly stay beyond `most`: what comes then costs more than
 /// that, and no more is known of it.
 pub fn fit_below(data: &Data, from: &Fit, pieces: Vec<Piece>, noise: Noise, most: f64) -> Fit {
-    fit_from(data, Arc::clone(&from.pixels), pieces, noise, &|_| true, End { enough: ENOUGH, most })
+    let start = Model::begun(data, Arc::clone(&from.pixels), pieces, noise, &|_| true);
+    start.fitted(data, noise, &|_| true, End { most, ..WHOLE })
 }
 
 /// The same from the pixels of `from` on, to the sets of which `counts` is true, until a further step would take away less than `enough`.
@@ -162,8 +163,8 @@ pub fn fit_until(
     counts: &(dyn Fn(usize) -> bool + Sync),
     enough: f64,
 ) -> Fit {
-    let end = End { enough, most: f64::INFINITY };
-    fit_from(data, Arc::clone(&from.pixels), pieces, noise, counts, end)
+    let start = Model::begun(data, Arc::clone(&from.pixels), pieces, noise, counts);
+    start.fitted(data, noise, counts, End { enough, ..WHOLE })
 }
 
 /// Where a fit ends.
@@ -175,27 +176,11 @@ struct End {
     most: f64,
 }
 
-fn fit_from(
-    data: &Data,
-    pixels: Arc<Pixels>,
-    pieces: Vec<Piece>,
-    noise: Noise,
-    counts: &(dyn Fn(usize) -> bool + Sync),
-    End { enough, most }: End,
-) -> Fit {
-    let mut pieces: Vec<Piece> = pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
-    free_shapes(&mut pieces);
-    let round = Round::new(data, &pixels, &pieces, noise, counts);
-    let (came_by, kept, came_down, is_stuck, crept) = (Stride::Whole, true, false, false, 0);
-    let start = Model { pixels, pieces, round, came_by, kept, came_down, is_stuck, crept };
-    let step = |here: &Model, may_climb: bool| {
-        // Shapes are fitted from the second step on only, on a hill nothing is known of the valley behind it, and far from the data steps promise too little.
-        let is_hopeless = here.came_down && !here.round.is_far() && here.round.hoped() > most;
-        let is_there = here.is_stuck || here.crept == CREEPING.0 || is_hopeless || here.round.gain < enough;
-        if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
-    };
-    descend(start, ITERATIONS, enough, &step, &|model| model.round.left()).end()
-}
+/// Where a fit ends that is gone on with as long as steps take anything away.
+const WHOLE: End = End { enough: ENOUGH, most: f64::INFINITY };
+
+/// Which sets count, by their numbers.
+type Counts<'a> = &'a (dyn Fn(usize) -> bool + Sync);
 
 /// A model, and the normal equations around it.
 struct Model {
@@ -215,15 +200,31 @@ struct Model {
 }
 
 impl Model {
+    /// Where a fit of `pieces` begins.
+    fn begun(data: &Data, pixels: Arc<Pixels>, pieces: Vec<Piece>, noise: Noise, counts: Counts) -> Self {
+        let mut pieces: Vec<Piece> =
+            pieces.into_iter().map(|piece| Piece { finite: false, ..piece }).collect();
+        free_shapes(&mut pieces);
+        let round = Round::new(data, &pixels, &pieces, noise, counts);
+        let (came_by, kept, came_down, is_stuck, crept) = (Stride::Whole, true, false, false, 0);
+        Self { pixels, pieces, round, came_by, kept, came_down, is_stuck, crept }
+    }
+
+    /// Where it ends.
+    fn fitted(self, data: &Data, noise: Noise, counts: Counts, End { enough, most }: End) -> Fit {
+        let step = |here: &Self, may_climb: bool| {
+            // Shapes are fitted from the second step on only, on a hill nothing is known of the valley behind it, and far from the data steps promise too little.
+            let is_hopeless = here.came_down && !here.round.is_far() && here.round.hoped() > most;
+            let is_there =
+                here.is_stuck || here.crept == CREEPING.0 || is_hopeless || here.round.gain < enough;
+            if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
+        };
+        descend(self, ITERATIONS, enough, &step, &|model| model.round.left()).end()
+    }
+
     /// After the first step, of all [strides](Stride), that does not lead uphill, or, where it `may_climb`, not far; nothing where there is none, or none is
     /// worth it.
-    fn stepped(
-        &self,
-        may_climb: bool,
-        data: &Data,
-        noise: Noise,
-        counts: &(dyn Fn(usize) -> bool + Sync),
-    ) -> Option<Self> {
+    fn stepped(&self, may_climb: bool, data: &Data, noise: Noise, counts: Counts) -> Option<Self> {
         // What has no shape has no other step with it held.
         let is_another =
             |stride: &Stride| *stride != Stride::ShapesHeld || self.round.has_shapes(&self.pieces);

@@ -117,9 +117,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let is_of_cut = is_cut
         && named.is_empty()
         && !are_dropped
-        && baseline
-            .period_dn
-            .is_some_and(|period_dn| is_part_of(f64::from(1_u32 << data.cut_bits.min(16)), period_dn))
+        && baseline.period_dn.is_some_and(|period_dn| is_part_of(data.unit_dn(), period_dn))
         && left.iter().filter(is_left).all(|place| place.coordinate == "code");
     let rest = most_left.map_or(0.0, |place| place.excess().max(0.0));
     let left_there = most_left.map_or(0.0, |place| left_of(&places, place));

@@ -120,7 +120,7 @@ pub fn stated_noise(data: &Data) -> Noise {
     let camera = &data.camera;
     let read_dn = camera.read_noise_e / camera.gain_e_per_dn;
     // Of codes that have low bits cut off, too, the unit is what they are rounded to.
-    let unit_dn = f64::from(1_u32 << data.cut_bits.min(16));
+    let unit_dn = data.unit_dn();
     Noise {
         floor: read_dn * read_dn + unit_dn * unit_dn / 12.0,
         slope: camera.gain_e_per_dn.recip(),

@@ -31,34 +31,30 @@ pub static EFFECT: Effect = Effect {
     act: Act::Code(act),
 };
 
-/// Third and fifth harmonic of a square wave, and of a triangle, over the first.
-const ODD: [[f64; 2]; 2] = [[-1.0 / 3.0, 1.0 / 9.0], [1.0 / 5.0, 1.0 / 25.0]];
+/// Third and fifth harmonic over the first: of a square wave, and of a triangle.
+const SQUARE: [f64; 2] = [-1.0 / 3.0, 1.0 / 5.0];
+const TRIANGLE: [f64; 2] = [1.0 / 9.0, 1.0 / 25.0];
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let (pedestal_dn, cosine_dn, sine_dn, period_dn) =
-        (exposure.pixels.pedestal_dn, values[0], values[1], values[2]);
-    let [third, fifth] = ODD.map(|odd| if values[3] > 0.5 { odd[0] } else { odd[1] });
-    let amplitude_dn = cosine_dn.hypot(sine_dn);
-    let has_harmonics = values[3] != 0.0 && amplitude_dn > 0.0;
+    let (pedestal_dn, cosine_dn, sine_dn, period_dn, form) =
+        (exposure.pixels.pedestal_dn, values[0], values[1], values[2], values[3]);
+    let [third, fifth] = match form {
+        form if form > 0.5 => SQUARE,
+        form if form < -0.5 => TRIANGLE,
+        _ => [0.0; 2],
+    };
+    let squared_dn2 = cosine_dn * cosine_dn + sine_dn * sine_dn;
+    let per_squared = if squared_dn2 > 0.0 { squared_dn2.recip() } else { 0.0 };
     let signals: &mut [f64] = &mut exposure.signal_dn;
-    if has_harmonics {
-        widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, amplitude_dn: f64, period_dn: f64,
-                 third: f64, fifth: f64) {
-            for signal in signals {
-                let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / period_dn);
-                let wave = (cosine_dn * cosine + sine_dn * sine) / amplitude_dn;
-                let square = wave * wave;
-                // Chebyshev's polynomials of the third and the fifth.
-                let harmonics = third * (4.0 * square - 3.0) + fifth * ((16.0 * square - 20.0) * square + 5.0);
-                *signal += amplitude_dn * wave * (1.0 + harmonics);
-            }
-        });
-        return;
-    }
-    widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, period_dn: f64) {
+    widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, period_dn: f64,
+             third: f64, fifth: f64, per_squared: f64) {
         for signal in signals {
             let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / period_dn);
-            *signal += cosine_dn * cosine + sine_dn * sine;
+            let wave_dn = cosine_dn * cosine + sine_dn * sine;
+            let square = wave_dn * wave_dn * per_squared;
+            // Chebyshev's polynomials of the third and the fifth, over the wave.
+            let harmonics = third * (4.0 * square - 3.0) + fifth * ((16.0 * square - 20.0) * square + 5.0);
+            *signal += wave_dn * (1.0 + harmonics);
         }
     });
 }

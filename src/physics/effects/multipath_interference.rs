@@ -6,8 +6,8 @@ use crate::widest::widest;
 
 /// A second return by way of a wall that stands beside the path of the light, at the same distance all along: out directly, back by the
 /// wall's mirror image, √(d² + 4 L²) for a target at d. Its amplitude relative to the direct one is the parameter, were the wall close,
-/// and less by the longer way (0), by its square, out and back (-2), or at any distance the same share of the direct light (-1). Or, whatever the target's distance, a way longer by as much as the wall is away, out and back together twice that, of
-/// light that falls off with it (1).
+/// and less by the longer way (0), by its square, out and back (-2), or at any distance the same share of the direct light (-1). Or, whatever the
+/// target's distance, a way longer by as much as the wall is away, out and back together twice that, of light that falls off with it (1).
 pub static EFFECT: Effect = Effect {
     name: "multipath_interference",
     sentence: "Part of the light reaches the pixel by a longer way (a wall, another surface), and its phasor adds to the direct one.",
@@ -28,9 +28,9 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     if share == 0.0 {
         return;
     }
-    // By this power of the longer way the light is less.
-    let fall = if values[2] < -1.5 { 2 } else { i32::from(values[2] > -0.5) };
     let is_constant = values[2] > 0.5;
+    let falls_with_square = is_constant || values[2] < -1.5;
+    let is_one_share = values[2] < -0.5;
     let count = exposure.range_m.len();
     let (mut amplitudes_dn, mut phases_rad) = (vec![0.0; count], vec![0.0; count]);
     {
@@ -44,24 +44,24 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         let signals_dn: &mut [f64] = &mut exposure.signal_dn;
         let (amplitudes_dn, phases_rad) = (&mut amplitudes_dn[..], &mut phases_rad[..]);
         widest!((direct: Direct<'a>, target: &'a [bool], share: f64, wall_m: f64,
-                 is_constant: bool, fall: i32, frequency_hz: f64, signals_dn: &'a mut [f64],
-                 amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
+                 is_constant: bool, falls_with_square: bool, is_one_share: bool, frequency_hz: f64,
+                 signals_dn: &'a mut [f64], amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
             let light = direct.amplitude_dn.iter().zip(direct.constant_dn);
             let ways = direct.range_m.iter().zip(direct.phase_rad).zip(target).zip(light);
             let back = signals_dn.iter_mut().zip(amplitudes_dn).zip(phases_rad);
             for (way, ((signal, of_path), phase_of_path)) in ways.zip(back) {
                 let (((range_m, phase_rad), is_target), (amplitude, constant)) = way;
-                let (back_m, part) = if is_constant {
-                    let nearer = range_m / (range_m + wall_m);
-                    (range_m + 2.0 * wall_m, share * (nearer * nearer))
+                let back_m = match is_constant {
+                    true => range_m + 2.0 * wall_m,
+                    false => (range_m * range_m + 4.0 * wall_m * wall_m).sqrt(),
+                };
+                let part = if falls_with_square {
+                    let nearer = 2.0 * range_m / (range_m + back_m);
+                    share * (nearer * nearer)
+                } else if is_one_share {
+                    share
                 } else {
-                    let back_m = (range_m * range_m + 4.0 * wall_m * wall_m).sqrt();
-                    let nearer = match fall {
-                        2 => (2.0 * range_m / (range_m + back_m)) * (2.0 * range_m / (range_m + back_m)),
-                        1 => range_m / back_m,
-                        _ => 1.0,
-                    };
-                    (back_m, share * nearer)
+                    share * range_m / back_m
                 };
                 // Light that comes by the wall goes to the target.
                 let part = if *is_target { part } else { 0.0 };
