@@ -38,6 +38,11 @@ fn act(values: &[f64], exposure: &mut Exposure) {
             }
         });
     }
+    bend(signals, full_scale_dn, quadratic, cubic);
+}
+
+/// The polynomial, up to where it turns back.
+fn bend(signals: &mut [f64], full_scale_dn: f64, quadratic: f64, cubic: f64) {
     let most = full_scale_dn * turning(quadratic, cubic);
     widest!((signals: &'a mut [f64], full_scale_dn: f64, quadratic: f64, cubic: f64, most: f64) {
         for signal in signals {
@@ -59,6 +64,19 @@ fn turning(quadratic: f64, cubic: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// 1 - 1.2 s - 1.8 s^2 is nothing at s = 0.483: the polynomial up to there, and never less of more light.
+    #[test]
+    fn a_response_stays_at_its_top() {
+        let light = |step: usize| step as f64 / 100.0;
+        let mut shown: Vec<f64> = (0..=500).map(light).collect();
+        bend(&mut shown, 1.0, -0.6, -0.6);
+        assert!(shown.windows(2).all(|pair| pair[0] <= pair[1]));
+        let curve = |share: f64| share - 0.6 * share.powi(2) - 0.6 * share.powi(3);
+        assert!((0..=48).all(|step| (shown[step] - curve(light(step))).abs() < 1e-12));
+        assert!((49..=500).all(|step| (shown[step] - curve(0.483_163_248)).abs() < 1e-9));
+        assert!(curve(5.0) < -80.0);
+    }
 
     /// By hand: 1 - 0.6 s is nothing at 5/3, 1 - 0.3 s^2 at 1.826, 1 - 2 s + 0.75 s^2 at 2/3 and 2.
     #[test]
