@@ -142,23 +142,40 @@ fn an_encoder_that_errs_within_a_set_is_no_jitter() {
     assert_eq!(parameter(&verdict, "controls_carriage").0, 1.0);
 }
 
-/// Taps that exchange the halves of a turn: frames 2 and 3 of four, and the third of the steps of a third of a turn. Seven gains of frames say no more.
+/// Taps that exchange the halves of a turn: frames 2 and 3 of four, and the third of the steps of a third of a turn. Seven gains of frames say no more. Or the halves
+/// of the whole setting, with the set's phase offset: other frames from set to set.
 #[test]
 fn taps_of_half_a_turn_are_taps() {
-    let verdict = explained("four-motion,wdft-rail", "tap_mismatch:gain=0.004,by_half_turn=1");
-    let (found, sigma) = parameter(&verdict, "gain");
-    assert!((found - 0.004).abs() < 4.0 * sigma && sigma < 0.001, "{found} +- {sigma}");
-    assert_eq!(parameter(&verdict, "by_half_turn").0, 1.0);
+    for by in ["1", "0.5"] {
+        let verdict = explained("four-sweep,wdft-rail", &format!("tap_mismatch:gain=0.004,by_half_turn={by}"));
+        let (found, sigma) = parameter(&verdict, "gain");
+        assert!((found - 0.004).abs() < 4.0 * sigma && sigma < 0.001, "{found} +- {sigma}");
+        assert_eq!(parameter(&verdict, "by_half_turn").0.to_string(), by);
+    }
 }
 
-/// A bit of a wrong weight is a square wave over the codes.
+/// A bit of a wrong weight is a square wave over the codes, a stage of a wrong gain a sawtooth.
 #[test]
-fn a_bit_of_a_wrong_weight_is_the_converters() {
-    let wave = "adc_nonlinearity:cosine_dn=0,sine_dn=1.5,period_dn=256,form=1";
-    let verdict = explained("four-rail,wdft-rail", wave);
-    let (found, sigma) = parameter(&verdict, "sine_dn");
-    assert!((found - 1.5).abs() < 4.0 * sigma, "{found} +- {sigma}");
-    assert_eq!(parameter(&verdict, "form").0, 1.0);
+fn a_bit_of_a_wrong_weight_is_the_converters_and_so_is_a_stage_of_a_wrong_gain() {
+    for form in ["1", "0.5", "-0.5"] {
+        let wave = format!("adc_nonlinearity:cosine_dn=0,sine_dn=1.5,period_dn=256,form={form}");
+        let verdict = explained("four-rail,wdft-rail", &wave);
+        let (found, sigma) = parameter(&verdict, "sine_dn");
+        assert!((found - 1.5).abs() < 4.0 * sigma, "{form}: {found} +- {sigma}");
+        assert_eq!(parameter(&verdict, "form").0.to_string(), form);
+    }
+}
+
+/// A wall on one side of the image has its mirror image nearer to what that side sees: nothing is left to emitters aside.
+#[test]
+fn a_wall_may_stand_on_one_side() {
+    for side in ["1", "-0.5"] {
+        let way = format!("relative_amplitude=0.1,wall_distance_m=0.8,wall_beside={side}");
+        let verdict = explained("four-motion,four-rail,wdft-rail", &format!("multipath_interference:{way}"));
+        assert_eq!(parameter(&verdict, "wall_beside").0.to_string(), side);
+        let (found, sigma) = parameter(&verdict, "wall_distance_m");
+        assert!((found - 0.8).abs() < 4.0 * sigma, "{side}: {found} +- {sigma}");
+    }
 }
 
 /// Light by way of a wall that is the same share at any distance, or falls with the square of its way, leaves nothing to a second name.

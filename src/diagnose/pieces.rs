@@ -305,7 +305,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let seen_dn = if effect.name == SMOOTH.0 { data.span_dn() } else { f64::INFINITY };
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
     let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));
-    let usual_choices = choices.iter().filter(|&&chosen| !is_seldom(effect.name, chosen));
+    let name_of_choice = choice.map_or("", |choice| effect.parameters[choice].name);
+    let usual_choices = choices.iter().filter(|&&chosen| !is_seldom(effect.name, name_of_choice, chosen));
     let ways =
         usual_choices.flat_map(|&chosen| shapes.iter().filter(is_within).map(move |&value| (chosen, value)));
     for (chosen, value) in ways {

@@ -9,43 +9,60 @@ use super::overtones::OF_CODES;
 use super::pieces::Piece;
 use rayon::prelude::*;
 
-/// Effects, and what their choice is where they are seldom.
-const SELDOM: [(&str, &[f64]); 2] = [(OF_CODES, &[1.0, -1.0]), ("multipath_interference", &[-2.0])];
+/// Effects, and of one of their choices what is seldom.
+const SELDOM: [(&str, &str, &[f64]); 3] = [
+    (OF_CODES, "form", &[1.0, 0.5, -0.5, -1.0]),
+    (OF_WALLS, "is_longer_by_a_constant", &[-2.0]),
+    (OF_WALLS, "wall_beside", &[1.0, 0.5, -0.5, -1.0]),
+];
+const OF_WALLS: &str = "multipath_interference";
+/// A form may be seldom in two ways.
+const TIMES: usize = 2;
 
-/// Whether `chosen` is a choice of the effect `name` in which it is not looked for from the start.
-pub fn is_seldom(name: &str, chosen: f64) -> bool {
-    SELDOM.iter().any(|(effect, choices)| *effect == name && choices.contains(&chosen))
+/// Whether `chosen` is what is seldom of the `choice` of the effect `name`, in which it is not looked for from the start.
+pub fn is_seldom(name: &str, choice: &str, chosen: f64) -> bool {
+    SELDOM.iter().any(|(effect, of, choices)| (*effect, *of) == (name, choice) && choices.contains(&chosen))
 }
 
-/// The `piece` with its choice.
-fn with_choice(piece: &Piece, chosen: f64) -> Piece {
-    let mut piece = piece.clone();
-    let parameters = piece.effect.parameters.iter();
-    let choices = piece.values.iter_mut().zip(parameters).filter(|(_, parameter)| parameter.is_choice);
-    choices.for_each(|(value, _)| *value = chosen);
-    piece
+/// The `piece` with what is `chosen` of its `choice`; nothing where it has that.
+fn with_choice(piece: &Piece, choice: &str, chosen: f64) -> Option<Piece> {
+    let number = piece.effect.parameters.iter().position(|parameter| parameter.name == choice)?;
+    let mut other = piece.clone();
+    other.values[number] = chosen;
+    (piece.values[number] != chosen).then_some(other)
 }
 
 /// What is `fitted`, or the same with an effect of which `is_new` in a form that is seldom, where that fits clearly better by no more numbers.
-pub fn refined(data: &Data, fitted: Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Fit {
-    let other = |name: &str, chosen: f64| -> Option<Vec<Piece>> {
+pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Fit {
+    for _ in 0..TIMES {
+        match better(data, &fitted, noise, is_new) {
+            Some(better) => fitted = better,
+            None => break,
+        }
+    }
+    fitted
+}
+
+/// The best of what is one choice away from what is `fitted`, and clearly better.
+fn better(data: &Data, fitted: &Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Option<Fit> {
+    let other = |name: &str, choice: &str, chosen: f64| -> Option<Vec<Piece>> {
         let is_of = |piece: &Piece| piece.effect.name == name;
-        (is_new(name) && fitted.pieces.iter().any(is_of)).then(|| {
-            let anew = |piece: &Piece| if is_of(piece) { with_choice(piece, chosen) } else { piece.clone() };
-            fitted.pieces.iter().map(anew).collect()
-        })
+        let anew = |piece: &Piece| {
+            if is_of(piece) { with_choice(piece, choice, chosen) } else { Some(piece.clone()) }
+        };
+        let is_there = is_new(name) && fitted.pieces.iter().any(is_of);
+        is_there.then(|| fitted.pieces.iter().map(anew).collect()).flatten()
     };
-    let ways = SELDOM.iter().flat_map(|&(name, choices)| choices.iter().map(move |&chosen| (name, chosen)));
-    let tried: Vec<Vec<Piece>> = ways.filter_map(|(name, chosen)| other(name, chosen)).collect();
+    let ways = SELDOM.iter().flat_map(|&(name, choice, choices)| {
+        choices.iter().filter_map(move |&chosen| other(name, choice, chosen))
+    });
+    let tried: Vec<Vec<Piece>> = ways.collect();
     let most = fitted.cost() - NEEDED_NATS;
     let fits: Vec<Fit> =
-        tried.into_par_iter().map(|pieces| fit_below(data, &fitted, pieces, noise, most)).collect();
+        tried.into_par_iter().map(|pieces| fit_below(data, fitted, pieces, noise, most)).collect();
     // One that is no number is none.
     let better = fits.into_iter().filter(|fit| fit.cost() < most);
-    match better.min_by(|a, b| a.cost().total_cmp(&b.cost())) {
-        Some(best) => finished(data, best, noise),
-        None => fitted,
-    }
+    better.min_by(|a, b| a.cost().total_cmp(&b.cost())).map(|best| finished(data, best, noise))
 }
 
 #[cfg(test)]
@@ -57,11 +74,11 @@ mod tests {
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
 
-    /// What is left of a square wave by its fundamental is taken by a square wave, not by a triangle; of a wave nothing is left, and its form stays.
+    /// What is left of a square wave or a sawtooth by its fundamental is taken by that, not by another form; of a wave nothing is left, and its form stays.
     #[test]
-    fn a_wave_over_the_codes_that_is_a_square_one_becomes_one() {
+    fn a_wave_over_the_codes_of_another_form_becomes_that() {
         let size = Geometry { width: 16, height: 12 };
-        for (form, chosen) in [("1", 1.0), ("-1", -1.0), ("0", 0.0)] {
+        for (form, chosen) in [("1", 1.0), ("0.5", 0.5), ("-0.5", -0.5), ("-1", -1.0), ("0", 0.0)] {
             let truth = injection(&format!("{OF_CODES}:cosine_dn=3,sine_dn=-4,period_dn=200,form={form}"));
             let recordings = taken(size, 2, &[truth.unwrap()], &["four-rail"]).unwrap();
             let data = Data::of(&recordings, Vec::new()).unwrap();
@@ -81,6 +98,7 @@ mod tests {
 
     #[test]
     fn what_is_seldom_is_no_candidate() {
-        assert!(is_seldom(OF_CODES, 1.0) && !is_seldom(OF_CODES, 0.0) && !is_seldom("image_lag", -1.0));
+        assert!(is_seldom(OF_CODES, "form", 1.0) && !is_seldom(OF_CODES, "form", 0.0));
+        assert!(!is_seldom(OF_WALLS, "is_longer_by_a_constant", 1.0) && !is_seldom("image_lag", "form", 1.0));
     }
 }

@@ -1,6 +1,6 @@
 //! Light that comes back by a longer way too.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Pixels, Place};
 use crate::units;
 use crate::widest::widest;
 
@@ -8,6 +8,8 @@ use crate::widest::widest;
 /// wall's mirror image, √(d² + 4 L²) for a target at d. Its amplitude relative to the direct one is the parameter, were the wall close,
 /// and less by the longer way (0), by its square, out and back (-2), or at any distance the same share of the direct light (-1). Or, whatever the
 /// target's distance, a way longer by as much as the wall is away, out and back together twice that, of light that falls off with it (1).
+/// A wall beside the path is as far from what all pixels see (0), or stands beyond the last columns (1), the first ones (-1), the last rows (0.5) or the
+/// first ones (-0.5), and its mirror image is the nearer the more a pixel looks that way by its angle a: √(d² + 4 L² - 4 L d sin a).
 pub static EFFECT: Effect = Effect {
     name: "multipath_interference",
     sentence: "Part of the light reaches the pixel by a longer way (a wall, another surface), and its phasor adds to the direct one.",
@@ -16,6 +18,7 @@ pub static EFFECT: Effect = Effect {
         Parameter::strength("relative_amplitude", "1", 0.0, (0.0, 0.8), 0.1),
         Parameter::shape("wall_distance_m", "m", 0.6, (0.02, 6.0), &[0.15, 0.4, 0.8, 1.5]),
         Parameter::choice("is_longer_by_a_constant", "1", &[0.0, -1.0, -2.0, 1.0]),
+        Parameter::choice("wall_beside", "1", &[0.0, -1.0, -0.5, 0.5, 1.0]),
     ],
     place: Place::Correlation,
     chance: Chance::None,
@@ -31,6 +34,11 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     let is_constant = values[2] > 0.5;
     let falls_with_square = is_constant || values[2] < -1.5;
     let is_one_share = values[2] < -0.5;
+    let nearer_m = if is_constant { None } else { towards(&exposure.pixels, values[3]) };
+    let nearer_m: Vec<f64> = match nearer_m {
+        Some(sines) => exposure.range_m.iter().zip(sines).map(|(range_m, sine)| range_m * sine).collect(),
+        None => vec![0.0; exposure.range_m.len()],
+    };
     let count = exposure.range_m.len();
     let (mut amplitudes_dn, mut phases_rad) = (vec![0.0; count], vec![0.0; count]);
     {
@@ -40,6 +48,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
             phase_rad: &exposure.phase_rad,
             amplitude_dn: &exposure.amplitude_dn,
             constant_dn: &exposure.constant_dn,
+            nearer_m: &nearer_m,
         };
         let signals_dn: &mut [f64] = &mut exposure.signal_dn;
         let (amplitudes_dn, phases_rad) = (&mut amplitudes_dn[..], &mut phases_rad[..]);
@@ -47,13 +56,13 @@ fn act(values: &[f64], exposure: &mut Exposure) {
                  is_constant: bool, falls_with_square: bool, is_one_share: bool, frequency_hz: f64,
                  signals_dn: &'a mut [f64], amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
             let light = direct.amplitude_dn.iter().zip(direct.constant_dn);
-            let ways = direct.range_m.iter().zip(direct.phase_rad).zip(target).zip(light);
+            let ways = direct.range_m.iter().zip(direct.nearer_m).zip(direct.phase_rad).zip(target).zip(light);
             let back = signals_dn.iter_mut().zip(amplitudes_dn).zip(phases_rad);
             for (way, ((signal, of_path), phase_of_path)) in ways.zip(back) {
-                let (((range_m, phase_rad), is_target), (amplitude, constant)) = way;
+                let ((((range_m, nearer_m), phase_rad), is_target), (amplitude, constant)) = way;
                 let back_m = match is_constant {
                     true => range_m + 2.0 * wall_m,
-                    false => (range_m * range_m + 4.0 * wall_m * wall_m).sqrt(),
+                    false => (range_m * range_m + 4.0 * wall_m * (wall_m - nearer_m)).sqrt(),
                 };
                 let part = if falls_with_square {
                     let nearer = 2.0 * range_m / (range_m + back_m);
@@ -74,10 +83,44 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     exposure.add_path(&amplitudes_dn, &phases_rad.into());
 }
 
+/// Of every pixel, the sine of the angle by which it looks towards a wall that stands `beside`; nothing where no side is nearer.
+fn towards(pixels: &Pixels, beside: f64) -> Option<Vec<f64>> {
+    let side = usize::from(beside.abs() < 0.75);
+    let sine = |pixel: usize| beside.signum() * pixels.sines(pixel)[side];
+    (beside != 0.0).then(|| (0..pixels.target.len()).map(sine).collect())
+}
+
 /// The light that comes directly, a value a pixel each.
 struct Direct<'a> {
+    /// By how much what the pixel sees is nearer to the wall than what is straight ahead.
+    nearer_m: &'a [f64],
     range_m: &'a [f64],
     phase_rad: &'a [f64],
     amplitude_dn: &'a [f64],
     constant_dn: &'a [f64],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::Geometry;
+    use crate::physics::pixels::plain;
+
+    /// Of three pixels, by hand: what is seen at 2 m under 30 degrees to either side is 1 m nearer to the wall, or further from it.
+    #[test]
+    fn a_pixel_looks_towards_the_wall_or_away_from_it() {
+        let pixels = Pixels {
+            obliquity: vec![2.0 / 3.0_f64.sqrt(), 1.0, 2.0 / 3.0_f64.sqrt()],
+            ..plain(Geometry { width: 3, height: 1 })
+        };
+        let near = |beside: f64, expected: [f64; 3]| {
+            let sines = towards(&pixels, beside).unwrap();
+            assert!(sines.iter().zip(expected).all(|(sine, expected)| (sine - expected).abs() < 1e-12));
+        };
+        near(1.0, [-0.5, 0.0, 0.5]);
+        near(-1.0, [0.5, 0.0, -0.5]);
+        near(0.5, [0.0; 3]);
+        near(-0.5, [0.0; 3]);
+        assert!(towards(&pixels, 0.0).is_none());
+    }
 }

@@ -7,7 +7,8 @@ use std::f64::consts::{PI, TAU};
 const ROUNDED_RAD: f64 = 1e-4;
 
 /// Relative gain of one tap against that of the other, less 1, and its pedestal. The taps take turns, and the odd frames are this one's (0); or it has the
-/// frames of the second half of a turn, whose steps the sensor makes by exchanging its taps (1).
+/// frames of the second half of a turn, which the sensor makes by exchanging its taps: by the step within the set (1), or by the whole setting, the set's phase
+/// offset included (0.5).
 pub static EFFECT: Effect = Effect {
     name: "tap_mismatch",
     sentence: "Frames are read from two taps, even and odd ones or by halves of a turn, whose gains or pedestals differ.",
@@ -15,7 +16,7 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("gain", "1", 0.0, (-0.3, 0.3), 0.01),
         Parameter::strength("pedestal_dn", "DN", 0.0, (-200.0, 200.0), 2.0),
-        Parameter::choice("by_half_turn", "1", &[0.0, 1.0]),
+        Parameter::choice("by_half_turn", "1", &[0.0, 1.0, 0.5]),
     ],
     place: Place::Readout,
     chance: Chance::None,
@@ -24,10 +25,11 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let Moment { frame, step_rad, .. } = exposure.moment;
-    let is_second = match values[2] > 0.5 {
-        true => is_of_second_half(step_rad),
-        false => frame % 2 == 1,
+    let Moment { frame, step_rad, offset_rad, .. } = exposure.moment;
+    let is_second = match values[2] {
+        by if by > 0.75 => is_of_second_half(step_rad),
+        by if by > 0.25 => is_of_second_half(step_rad + offset_rad),
+        _ => frame % 2 == 1,
     };
     let side = if is_second { 0.5 } else { -0.5 };
     exposure
