@@ -147,7 +147,8 @@ fn an_encoder_that_errs_within_a_set_is_no_jitter() {
 #[test]
 fn taps_of_half_a_turn_are_taps() {
     for by in ["1", "0.5"] {
-        let verdict = explained("four-sweep,wdft-rail", &format!("tap_mismatch:gain=0.004,by_half_turn={by}"));
+        let verdict =
+            explained("four-sweep,wdft-rail", &format!("tap_mismatch:gain=0.004,by_half_turn={by}"));
         let (found, sigma) = parameter(&verdict, "gain");
         assert!((found - 0.004).abs() < 4.0 * sigma && sigma < 0.001, "{found} +- {sigma}");
         assert_eq!(parameter(&verdict, "by_half_turn").0.to_string(), by);

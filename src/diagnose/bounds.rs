@@ -3,6 +3,7 @@
 use super::columns::Column;
 use super::fit::Fit;
 use crate::physics::Parameter;
+use std::collections::BTreeSet;
 
 /// A value that is nearer to its bound, as a share of all that it may be, is at it: the fit would have gone on.
 const AT_BOUND: f64 = 1e-6;
@@ -16,13 +17,19 @@ pub fn is_at_bound(parameter: &Parameter, value: f64, full_scale_dn: f64) -> boo
 
 /// Whether the strength of an effect that was fitted is at its bound.
 pub fn is_bounded(fit: &Fit) -> bool {
+    !bounded(fit).is_empty()
+}
+
+/// The effects with a fitted strength at its bound.
+pub fn bounded(fit: &Fit) -> BTreeSet<&'static str> {
     let of_column = |column: &Column| {
         let piece = &fit.pieces[column.piece];
         let parameter = &piece.effect.parameters[column.parameter];
         let value = piece.in_all(column.parameter);
-        !parameter.is_shape() && is_at_bound(parameter, value, fit.pixels.full_scale_dn)
+        let is_at_it = !parameter.is_shape() && is_at_bound(parameter, value, fit.pixels.full_scale_dn);
+        is_at_it.then_some(piece.effect.name)
     };
-    fit.columns.iter().any(of_column)
+    fit.columns.iter().filter_map(of_column).collect()
 }
 
 #[cfg(test)]

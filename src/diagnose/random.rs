@@ -28,9 +28,9 @@ const AT_RANDOM: f64 = 0.05;
 /// Frames' errors may have so many times the noise's variance for each set. (Of an error's information the pixels' own numbers take a part of one over the
 /// number of sets.)
 const TIED: f64 = 0.1;
-/// Errors of rows, columns and frames that are less correlated than this, in standard deviations, are white: of eight lags one in two
-/// hundred is above it by chance.
-const WHITE: f64 = 3.5;
+/// Errors of rows, columns and frames that are less correlated than this, in standard deviations, are white: of eight lags (chi squared) one in two
+/// thousand is above it by chance.
+const WHITE: f64 = 5.0;
 
 /// Random errors that are none of the encoder's usual noise, nor what that shows as elsewhere; best first.
 fn unusual<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {

@@ -9,7 +9,7 @@ use super::exchange::exchange;
 use super::finished::finished;
 use super::fit::{Fit, fit, fit_led};
 use super::lamps::FLICKER;
-use super::needless::drop_needless;
+use super::needless::{drop_needless, without_bounded};
 use super::noise::Noise;
 use super::overtones::{OF_CODES, PERIOD};
 use super::pass::{Pass, THRESHOLD};
@@ -150,7 +150,7 @@ impl<'a> Search<'a> {
         drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
         let Self { data, noise, baseline, current, mut named, .. } = self;
-        let current = finished(data, current, noise);
+        let current = without_bounded(data, finished(data, current, noise), noise, &mut named);
         // However a drift was named, and if a flicker is not named beside it.
         let is_named = named.iter().any(|named| named.name == FLICKER);
         if !is_named && Alone::of(&alone, FLICKER).is_some() && baseline.series.flicker_rests() {

@@ -59,12 +59,14 @@ fn act(values: &[f64], exposure: &mut Exposure) {
             let harmonics: [f64; HARMONICS] = std::array::from_fn(|n| harmonic(n as f64 + 1.0));
             add_form(signals, pedestal_dn, [cosine_dn, sine_dn], period_dn, harmonics);
         }
-        None => widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, period_dn: f64) {
-            for signal in signals {
-                let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / period_dn);
-                *signal += cosine_dn * cosine + sine_dn * sine;
-            }
-        }),
+        None => {
+            widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, period_dn: f64) {
+                for signal in signals {
+                    let (cosine, sine) = cos_sin(TAU * (*signal + pedestal_dn) / period_dn);
+                    *signal += cosine_dn * cosine + sine_dn * sine;
+                }
+            })
+        }
     }
 }
 
@@ -112,7 +114,7 @@ mod tests {
             add_form(&mut signal, 0.0, [0.0, 2.0], 100.0, std::array::from_fn(|n| harmonic(n as f64 + 1.0)));
             (signal[0] - share * 100.0) / 2.0
         };
-                for share in [0.25, 0.3, 0.4, 0.6, 0.75] {
+        for share in [0.25, 0.3, 0.4, 0.6, 0.75] {
             let x = TAU * share;
             let is = |form: f64, expected: f64| {
                 let found = shown(form, share);
@@ -121,7 +123,7 @@ mod tests {
             is(1.0, FRAC_PI_4 * (0.5 - share).signum());
             is(0.5, (PI - x) / 2.0);
             is(-0.5, if share < 0.5 { x / 2.0 } else { (x - TAU) / 2.0 });
-is(-1.0, FRAC_PI_4 * (FRAC_PI_2 - (x - FRAC_PI_2).abs()));
+            is(-1.0, FRAC_PI_4 * (FRAC_PI_2 - (x - FRAC_PI_2).abs()));
         }
     }
 }
