@@ -8,6 +8,7 @@ use super::fit::{Fit, fit, fit_below};
 use super::noise::Noise;
 use super::pieces::Piece;
 use super::search::Named;
+use std::collections::BTreeSet;
 
 /// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.
 pub fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<Named>) {
@@ -36,11 +37,11 @@ pub fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut V
 /// What is `fitted` without those effects beside the first one `named` whose strength came to its bound, and the names without them: what a form leaves, or
 /// something that nobody knows, needs more of them than there may be. Where no camera is described steps and gains may be anything.
 pub fn without_bounded(data: &Data, mut fitted: Fit, noise: Noise, named: &mut Vec<Named>) -> Fit {
-    while !data.assumed.camera {
-        let bounded = bounded(&fitted);
-        let Some(last) = (1..named.len()).rev().find(|&number| bounded.contains(named[number].name)) else {
-            break;
-        };
+    let last = |fitted: &Fit, named: &[Named]| {
+        let bounded = if data.assumed.camera { BTreeSet::new() } else { bounded(fitted) };
+        (1..named.len()).rev().find(|&number| bounded.contains(named[number].name))
+    };
+    while let Some(last) = last(&fitted, named) {
         let name = named.remove(last).name;
         let others = fitted.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
         fitted = finished(data, fit(data, Some(&fitted), others, noise, &|_| true), noise);
