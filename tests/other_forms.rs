@@ -1,5 +1,6 @@
 //! `vuris diagnose` on what is known by one form, and comes in another: wells that few samples fill, shifters of many settings, encoders that control what they
-//! measure, noise of few samples, emitters on one side, scatter nearby, taps of half a turn, bits of a wrong weight, walls by another law.
+//! measure, noise of few samples, emitters on one side, scatter nearby, taps of half a turn, bits of a wrong weight, walls by another law or on one side, light that
+//! fades unevenly.
 
 mod diagnosed;
 mod rewritten;
@@ -165,6 +166,15 @@ fn a_bit_of_a_wrong_weight_is_the_converters_and_so_is_a_stage_of_a_wrong_gain()
         assert!((found - 1.5).abs() < 4.0 * sigma, "{form}: {found} +- {sigma}");
         assert_eq!(parameter(&verdict, "form").0.to_string(), form);
     }
+}
+
+/// Light that fades unevenly, of a target on a rail that does not move: no drift of all light alike beside emitters that are far aside.
+#[test]
+fn what_fades_unevenly_is_told_where_the_rail_rests() {
+    let rates = "top_left_per_s=0.004,left_per_s=0.004,middle_per_s=0.002";
+    let verdict = explained("four-sweep,wdft-sweep", &format!("response_decay:{rates}"));
+    let (found, sigma) = parameter(&verdict, "left_per_s");
+    assert!((found - 0.004).abs() < 4.0 * sigma && sigma < 0.001, "{found} +- {sigma}");
 }
 
 /// A wall on one side of the image has its mirror image nearer to what that side sees: nothing is left to emitters aside.

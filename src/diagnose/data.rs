@@ -320,6 +320,11 @@ impl Data {
         signals().map(|&signal| f64::from(signal)).sum::<f64>() / signals().count().max(1) as f64
     }
 
+    /// Whether all of the scene is in the same place in all recordings, as far as positions tell.
+    pub fn stands_still(&self) -> bool {
+        self.assumed.still_scene || !self.light.moves
+    }
+
     /// Whether `pixel` tells its constant light from the ambient light: where the target moves, or the camera's light is once off.
     pub fn tells_constant(&self, pixel: usize) -> bool {
         self.light.is_once_off || self.target[pixel] && self.light.moves

@@ -246,7 +246,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         .copied()
         .filter(|effect| {
             let is_seen = (data.grid.every == 1 || !OF_NEIGHBOURS.contains(&effect.name))
-                && (data.assumed.still_scene || !OF_STILL_SCENES.contains(&effect.name));
+                && (data.stands_still() || !OF_STILL_SCENES.contains(&effect.name));
             effect.is_predicted() && is_seen && !included(effect)
         })
         .map(|effect| {

@@ -319,8 +319,8 @@ fn invisible(data: &Data, found: &Found, at_random: &[(&'static str, Option<f64>
     };
     let absorbed = "on these recordings it changes nothing that the pixels' own amplitude, phase, constant and ambient light do not absorb";
     let mut invisible = rows(&found.invisible, absorbed);
-    if !data.assumed.still_scene {
-        invisible.extend(rows(&OF_STILL_SCENES, "it is looked for in scenes that stand still alone: here, light that follows the rail says nearly the same"));
+    if !data.stands_still() {
+        invisible.extend(rows(&OF_STILL_SCENES, "it is looked for where nothing moves alone: here, light that follows the rail says nearly the same"));
     }
     let unseen: Vec<&str> = at_random.iter().filter(|row| row.1.is_none()).map(|row| row.0).collect();
     invisible.extend(rows(&unseen, "no frame shows it, or too few do"));
