@@ -168,11 +168,12 @@ fn a_bit_of_a_wrong_weight_is_the_converters_and_so_is_a_stage_of_a_wrong_gain()
     }
 }
 
-/// Light that fades unevenly, of a target on a rail that does not move: no drift of all light alike beside emitters that are far aside.
+/// Light that fades unevenly, of a target on a rail that does not move: no drift of all light alike beside emitters that are far aside. (Without frames of no light its
+/// constant part is not told from ambient light, which does not fade.)
 #[test]
 fn what_fades_unevenly_is_told_where_the_rail_rests() {
     let rates = "top_left_per_s=0.004,left_per_s=0.004,middle_per_s=0.002";
-    let verdict = explained("four-sweep,wdft-sweep", &format!("response_decay:{rates}"));
+    let verdict = explained("four-sweep,wdft-sweep,four-dark", &format!("response_decay:{rates}"));
     let (found, sigma) = parameter(&verdict, "left_per_s");
     assert!((found - 0.004).abs() < 4.0 * sigma && sigma < 0.001, "{found} +- {sigma}");
 }

@@ -14,14 +14,23 @@ pub fn alias_odds(rho: f64, is_trusted: bool) -> f64 {
     hidden / rho.powi(2).max(hidden)
 }
 
+/// Odds against a name beside so many rivals within a few nats, which have as much of it each as one that is a nat and a half less likely, and beside what
+/// nobody has written down.
+pub fn odds_against(rho: f64, is_trusted: bool, rivals: usize) -> f64 {
+    rivals as f64 * (-1.5_f64).exp() + alias_odds(rho, is_trusted)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::alias_odds;
+    use super::{alias_odds, odds_against};
 
     #[test]
     fn a_strong_effect_has_no_alias() {
         assert_eq!(alias_odds(0.0, false), 1.0);
         let is = |rho: f64, is_trusted: bool, odds: f64| (alias_odds(rho, is_trusted) - odds).abs() < 1e-12;
+        // A trusted name of rho 8 is as likely as not without a rival, and less so beside two.
+        assert!(odds_against(8.0, true, 0) < 1.0 && odds_against(8.0, true, 2) > 1.0);
+        assert!(odds_against(9.0, true, 2) < 1.0 && odds_against(6.0, true, 0) == 1.0);
         assert!(is(10.0, false, 0.1) && is(100.0, false, 1e-3) && is(20.0, true, 0.1));
     }
 }

@@ -1,6 +1,6 @@
 //! A named effect as other programs read it.
 
-use super::alias::alias_odds;
+use super::alias::{alias_odds, odds_against};
 use super::bounds::is_at_bound;
 use super::data::Data;
 use super::images::{Image, also_seen, images, spread};
@@ -26,10 +26,10 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
     }
     let (chi2, degrees_of_freedom) = named.score;
     let rho = (chi2 - degrees_of_freedom as f64).max(0.0).sqrt();
-    // Rivals are within a few nats; everything else that is known has what the threshold leaves.
-    let rivals = named.rivals.len() as f64 * (-1.5f64).exp();
+    // Everything else that is known has what the threshold leaves.
     let alias = alias_odds(rho, named.is_trusted);
-    let probability = 1.0 / (1.0 + rivals + (-named.ln_bayes).exp() + alias);
+    let against = odds_against(rho, named.is_trusted, named.rivals.len());
+    let probability = 1.0 / (1.0 + against + (-named.ln_bayes).exp());
     EffectRow {
         name: named.name,
         sentence: format!(

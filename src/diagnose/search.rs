@@ -1,5 +1,6 @@
 //! The search: baseline, evidence of all candidates at once, fit of the best, and again for what is left.
 
+use super::alias::odds_against;
 use super::alone::Alone;
 use super::completed::Completed;
 use super::contest::{Entrant, hopeful};
@@ -214,13 +215,13 @@ impl<'a> Search<'a> {
                 if is_believed && self.named.is_empty() && best.blocks.len() < whole.blocks.len() {
                     self.promise(&pass, &candidates, &whole);
                 }
-                // Nor is what wins a contest that one opens which is trusted, nor what may as well be one that is not.
+                // Nor is what wins a contest that one opens which is trusted, nor what is as likely something else.
                 let may_be_named = |candidate: usize, chi2: f64, rivals: &[String]| {
-                    let is_rival = |name: &str| rivals.iter().any(|rival| rival == name);
+                    let is_rival = |other: &Candidate| rivals.iter().any(|name| name == other.effect.name);
                     let mut all = candidates.iter().zip(&least);
-                    let has_worse =
-                        all.any(|(other, least)| least.is_infinite() && is_rival(other.effect.name));
-                    !is_by_trust || chi2 > tolerated || is_trusted(candidate, chi2) && !has_worse
+                    let has_worse = all.any(|(other, least)| least.is_infinite() && is_rival(other));
+                    let is_likely = !has_worse && odds_against(chi2.sqrt(), true, rivals.len()) < 1.0;
+                    !is_by_trust || chi2 > tolerated || is_trusted(candidate, chi2) && is_likely
                 };
                 let before = self.named.len();
                 let is_named = self.name(&pass, &candidates, best, &whole, &may_be_named);
