@@ -5,7 +5,7 @@ use super::data::Data;
 use super::finished::finished;
 use super::fit::{Fit, fit_below};
 use super::noise::Noise;
-use super::overtones::OF_CODES;
+use super::overtones::{OF_CODES, PERIOD};
 use super::pieces::Piece;
 use rayon::prelude::*;
 
@@ -16,6 +16,10 @@ const SELDOM: [(&str, &str, &[f64]); 3] = [
     (OF_WALLS, "wall_beside", &[1.0, 0.5, -0.5, -1.0]),
 ];
 const OF_WALLS: &str = "multipath_interference";
+/// A form over the codes repeats among the signals so often at least.
+const REPEATS: f64 = 2.0;
+/// Number of the form of a wave over the codes.
+const FORM: usize = 3;
 /// A form may be seldom in two ways.
 const TIMES: usize = 2;
 
@@ -60,8 +64,14 @@ fn better(data: &Data, fitted: &Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool
     let most = fitted.cost() - NEEDED_NATS;
     let fits: Vec<Fit> =
         tried.into_par_iter().map(|pieces| fit_below(data, fitted, pieces, noise, most)).collect();
-    // One that is no number is none.
-    let better = fits.into_iter().filter(|fit| fit.cost() < most);
+    // One that is no number is none, and a jump that no signal shows again is a step, which repeats nowhere.
+    let is_once = |piece: &Piece| {
+        piece.effect.name == OF_CODES
+            && piece.values[FORM] != 0.0
+            && REPEATS * piece.values[PERIOD] > data.span_dn()
+    };
+    let is_better = |fit: &Fit| fit.cost() < most && !fit.pieces.iter().any(is_once);
+    let better = fits.into_iter().filter(is_better);
     better.min_by(|a, b| a.cost().total_cmp(&b.cost())).map(|best| finished(data, best, noise))
 }
 
