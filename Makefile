@@ -8,7 +8,7 @@ VURIS := $(or $(CARGO_TARGET_DIR),target)/release/vuris
 unexport MAKEFLAGS MFLAGS
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test lint cocotb generate synth mutate coverage prove study proof open-question catalogue real-pages picture clean
+.PHONY: help setup build demo test slow lint cocotb generate synth mutate coverage prove study proof open-question catalogue real-pages picture clean
 
 help:      ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -44,6 +44,9 @@ test: setup ## every check: format, lints, tests, documentation, generated files
 
 generate: build ## write generated/ anew
 	$(VURIS) generate --spec vuris --out generated
+
+slow: build ## the diagnosis's tests that take minutes each, which make test leaves out
+	cargo test --release --locked -- --ignored
 
 synth: build ## area and clock frequency of every target (minutes; ACCEPT=1 takes changed areas for the baseline)
 	bash scripts/hdl-tools.sh synth

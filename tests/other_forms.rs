@@ -178,28 +178,25 @@ fn what_fades_unevenly_is_told_where_the_rail_rests() {
     assert!((found - 0.004).abs() < 4.0 * sigma && sigma < 0.001, "{found} +- {sigma}");
 }
 
+/// A wall of which this `choice` is `chosen` is found, and where it stands, with nothing left to a second name.
+fn is_found(share: f64, choice: &str, chosen: &str) {
+    let way = format!("relative_amplitude={share},wall_distance_m=0.8,{choice}={chosen}");
+    let verdict = explained("four-motion,four-rail,wdft-rail", &format!("multipath_interference:{way}"));
+    assert_eq!(parameter(&verdict, choice).0.to_string(), chosen);
+    let (found, sigma) = parameter(&verdict, "wall_distance_m");
+    assert!((found - 0.8).abs() < 4.0 * sigma, "{chosen}: {found} +- {sigma}");
+}
+
 /// A wall on one side of the image has its mirror image nearer to what that side sees: nothing is left to emitters aside.
 #[test]
 fn a_wall_may_stand_on_one_side() {
-    for side in ["1", "-0.5"] {
-        let way = format!("relative_amplitude=0.1,wall_distance_m=0.8,wall_beside={side}");
-        let verdict = explained("four-motion,four-rail,wdft-rail", &format!("multipath_interference:{way}"));
-        assert_eq!(parameter(&verdict, "wall_beside").0.to_string(), side);
-        let (found, sigma) = parameter(&verdict, "wall_distance_m");
-        assert!((found - 0.8).abs() < 4.0 * sigma, "{side}: {found} +- {sigma}");
-    }
+    ["1", "-0.5"].into_iter().for_each(|side| is_found(0.1, "wall_beside", side));
 }
 
 /// Light by way of a wall that is the same share at any distance, or falls with the square of its way, leaves nothing to a second name.
 #[test]
 fn a_longer_way_is_one_however_its_light_falls() {
-    for fall in ["-1", "-2"] {
-        let way = format!("relative_amplitude=0.05,wall_distance_m=0.8,is_longer_by_a_constant={fall}");
-        let verdict = explained("four-motion,four-rail,wdft-rail", &format!("multipath_interference:{way}"));
-        assert_eq!(parameter(&verdict, "is_longer_by_a_constant").0.to_string(), fall);
-        let (found, sigma) = parameter(&verdict, "wall_distance_m");
-        assert!((found - 0.8).abs() < 4.0 * sigma, "{fall}: {found} +- {sigma}");
-    }
+    ["-1", "-2"].into_iter().for_each(|fall| is_found(0.05, "is_longer_by_a_constant", fall));
 }
 
 /// Codes without their four low bits are off by what repeats every 16 of them.

@@ -97,7 +97,11 @@ fn real_scenes_name_the_response_and_tell_each_other_of_it() {
         let files: Vec<&str> = files.iter().map(String::as_str).collect();
         let out = folder.path().join(scene);
         import("stack", &files, "", &out);
-        let alone = verdict(&out);
+        let camera = folder.path().join(format!("{scene}.toml"));
+        let [stack, written] = [&out, &camera].map(|path| path.to_str().unwrap());
+        let (good, text) = vuris(&["diagnose", stack, "--json", "-", "--write-camera", written]);
+        assert!(good, "{text}");
+        let alone: Value = serde_json::from_str(&text).unwrap();
         assert!(names(&alone).contains(&"intensity_nonlinearity".to_owned()), "{scene}: {alone:#}");
         let [before_dn, after_dn] = held_out_dn(&alone);
         assert!(before_dn > 8.0 && after_dn < 4.5, "{scene}: {before_dn} {after_dn}");
@@ -107,10 +111,6 @@ fn real_scenes_name_the_response_and_tell_each_other_of_it() {
             let [told_dn, _] = held_out_dn(&verdict(&told));
             assert!(told_dn < 4.5, "{scene} told by {other}: {told_dn}");
         }
-        let camera = folder.path().join(format!("{scene}.toml"));
-        let (good, text) =
-            vuris(&["diagnose", out.to_str().unwrap(), "--write-camera", camera.to_str().unwrap()]);
-        assert!(good, "{text}");
         cameras.push((scene, camera));
     }
     assert!(cameras.len() > 1, "{}: no scenes; expected {SCENES:?}", real.display());

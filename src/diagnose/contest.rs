@@ -1,10 +1,11 @@
 //! Fits of several effects of which one is to be chosen: what a part of the sets speaks against clearly is not fitted to all.
 
 use super::data::Data;
-use super::fit::{Fit, Led, fit_until};
+use super::fit::{End, Fit, Led, WHOLE, fit, fit_led, fit_until};
 use super::noise::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::{Piece, tolerance};
+use super::watchdog::ENOUGH;
 use rayon::prelude::*;
 
 /// One set in so many of each recording is looked at first: no multiple of how often positions are repeated, as a rule.
@@ -16,6 +17,10 @@ const LEAST_SAMPLES: usize = 50_000;
 const CLEARLY_LESS: f64 = 100.0;
 /// What a further step would take away of what is left of a part is known without taking it, where it is less than this.
 const PART_ENOUGH: f64 = 0.1 * CLEARLY_LESS;
+/// Of what a fit explains, so much says nothing of whether it is the best one: a step that takes away less is not taken at first.
+const ROUGH: f64 = 1e-3;
+/// A rough fit that explains less than the best one by so many times that may still turn out to be that.
+const NEAR: f64 = 20.0;
 /// A way of an effect that explains more of the part by this chi squared, by no more numbers, is the better one of the same form.
 const ANOTHER_WAY: f64 = 10.0;
 /// Ways that are at the same place but for this, with the pixels' own numbers settled, count as one that comes to the same end.
@@ -42,12 +47,14 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
         return entrants;
     }
     let sets = data.sets();
-    let of_part = |pieces: &[Piece]| {
+    let of_part = |pieces: &[Piece], share_of: (f64, f64)| {
         let is_in = |set: usize| sets[set].1.is_multiple_of(PART);
-        fit_until(data, current, pieces.to_vec(), noise, &is_in, PART_ENOUGH)
+        let end = End { enough: PART_ENOUGH, share_of, ..WHOLE };
+        fit_until(data, current, pieces.to_vec(), noise, &is_in, end)
     };
-    let before = of_part(&current.pieces);
-    let fits: Vec<Fit> = entrants.par_iter().map(|entrant| of_part(&entrant.pieces)).collect();
+    let before = of_part(&current.pieces, WHOLE.share_of);
+    let of_entrant = |entrant: &Entrant| of_part(&entrant.pieces, (ROUGH, before.left()));
+    let fits: Vec<Fit> = entrants.par_iter().map(of_entrant).collect();
     let explained = |left: &dyn Fn(&Fit) -> f64, (entrant, fit): (&Entrant, &Fit)| {
         let numbers = fit.columns.len().saturating_sub(before.columns.len()) as f64;
         let all = left(&before) - left(fit);
@@ -71,6 +78,23 @@ pub fn hopeful(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise)
     }
     let end = |(entrant, fit): (Entrant, Fit)| Entrant { led: Some((fit.pixels, fit.pieces)), ..entrant };
     entrants.into_iter().zip(fits).zip(stays).filter(|(_, stays)| *stays).map(|(both, _)| end(both)).collect()
+}
+
+/// Fits of the `entrants` to all sets, each with the number of its block: roughly, and those to their ends that may turn out to be the best one or as good, but for
+/// what forms may leave.
+pub fn fitted(data: &Data, current: &Fit, entrants: Vec<Entrant>, noise: Noise) -> Vec<(usize, Fit)> {
+    let rough = End { share_of: (ROUGH, current.left()), ..WHOLE };
+    let of_entrant = |Entrant { block, pieces, led, .. }: Entrant| {
+        (block, fit_led(data, current, pieces, led, noise, rough))
+    };
+    let fits: Vec<(usize, Fit)> = entrants.into_par_iter().map(of_entrant).collect();
+    let least = fits.iter().map(|(_, fit)| fit.left()).fold(f64::INFINITY, f64::min);
+    let may_be_best = |fit: &Fit| fit.left() < least + NEAR * ROUGH * (current.left() - least);
+    let to_its_end = |(block, rough): (usize, Fit)| match rough.unreached > ENOUGH && may_be_best(&rough) {
+        true => (block, fit(data, Some(&rough), rough.pieces.clone(), noise, &|_| true)),
+        false => (block, rough),
+    };
+    fits.into_par_iter().map(to_its_end).collect()
 }
 
 /// What an entrant explains of a part of the sets, chi squared, and by how many numbers.
@@ -115,6 +139,40 @@ fn staying(explained: &[Explained]) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::{injection, taken};
+    use crate::diagnose::data::Data;
+    use crate::diagnose::finished::unfitted;
+    use crate::diagnose::stated_noise;
+    use crate::frames::Geometry;
+
+    /// Light by way of a wall, far above the noise: of what comes from afar to where it explains all, the last steps count; of what never will, they do not.
+    #[test]
+    fn what_may_be_the_best_one_is_fitted_to_its_end() {
+        let size = Geometry { width: 16, height: 12 };
+        let truth = injection("multipath_interference:relative_amplitude=0.3,wall_distance_m=0.7").unwrap();
+        let recordings = taken(size, 2, &[truth], &["four-rail"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let noise = stated_noise(&data);
+        let baseline = unfitted(&data, noise);
+        let entrant = |block, name, strengths: &[usize], shapes: &[usize]| {
+            let pieces = vec![Piece::off(name, strengths, shapes)];
+            Entrant { block, name, pieces, led: None }
+        };
+        let entrants = || {
+            let mut wall = entrant(3, "multipath_interference", &[0, 1], &[0]);
+            wall.pieces[0].values[1] = 0.4;
+            vec![wall, entrant(5, "image_lag", &[0], &[0]), entrant(8, "phase_step_scale", &[0], &[0])]
+        };
+        let fits = fitted(&data, &baseline, entrants(), noise);
+        assert_eq!(fits.iter().map(|(block, _)| *block).collect::<Vec<_>>(), [3, 5, 8]);
+        let explained = baseline.left() - fits[0].1.left();
+        assert!(explained > 1e4 && fits[0].1.unreached < ENOUGH, "{explained} {}", fits[0].1.unreached);
+        for (entrant, (_, found)) in entrants().into_iter().zip(&fits) {
+            let whole = fit(&data, Some(&baseline), entrant.pieces, noise, &|_| true);
+            let more = found.left() - whole.left();
+            assert!(more.abs() < ROUGH * explained, "{}: {more}", entrant.name);
+        }
+    }
 
     #[test]
     fn what_a_part_speaks_against_clearly_goes_but_for_the_first() {

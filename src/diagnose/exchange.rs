@@ -23,7 +23,7 @@ pub fn exchange(
     let undescribed = if data.assumed.camera { UNDESCRIBED } else { 1.0 };
     for number in 0..named.len() {
         let Named { name: old, score: (explained, _), .. } = named[number];
-        let others = current.pieces.iter().filter(|piece| piece.effect.name != old);
+        let others = current.pieces_without(old);
         // What the others' forms leave more numbers may say, or the form of either leaves.
         let of_others = tolerated(named) - tolerance(old) * explained;
         let allowed = |block: usize| {
@@ -31,7 +31,7 @@ pub fn exchange(
             0.5 * undescribed * of_others.min(DISBELIEF * own * explained)
         };
         let fitted = |block: usize| {
-            let pieces = others.clone().cloned().chain(first.pieces(&[block], candidates)).collect();
+            let pieces = [&others[..], &first.pieces(&[block], candidates)].concat();
             (block, fit_below(data, current, pieces, noise, current.cost() + allowed(block)))
         };
         // What was given up is not chosen from, and neither is what is no number.

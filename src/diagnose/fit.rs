@@ -42,8 +42,11 @@ pub struct Fit {
     pub series: Series,
 }
 
+/// Which sets count, by their numbers.
+type Counts<'a> = &'a (dyn Fn(usize) -> bool + Sync);
+
 /// The pixels' own numbers from a linear fit of the fundamental, led by steps to where the effects that the camera includes are there.
-fn start(data: &Data, noise: Noise, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
+fn start(data: &Data, noise: Noise, counts: Counts) -> Arc<Pixels> {
     let pixels = linear(data, counts);
     let is_far = || Round::new(data, &pixels, &[], noise, counts).is_far();
     if data.takes.iter().all(|take| take.included.is_empty()) || !is_far() {
@@ -89,6 +92,11 @@ impl Fit {
         self.covariance[(column, column)].max(0.0).sqrt()
     }
 
+    /// Its pieces but for those of the effect called `name`.
+    pub fn pieces_without(&self, name: &str) -> Vec<Piece> {
+        self.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect()
+    }
+
     /// Chi squared that it leaves; what a further step promises to take away counts against it.
     pub fn left(&self) -> f64 {
         self.chi2 + self.unreached
@@ -124,24 +132,18 @@ const KEPT: f64 = 0.5;
 const SLOW: f64 = 1e-3;
 
 /// Fits `pieces` from their values on, with the pixels of `from` or from scratch, to the sets of which `counts` is true.
-pub fn fit(
-    data: &Data,
-    from: Option<&Fit>,
-    pieces: Vec<Piece>,
-    noise: Noise,
-    counts: &(dyn Fn(usize) -> bool + Sync),
-) -> Fit {
+pub fn fit(data: &Data, from: Option<&Fit>, pieces: Vec<Piece>, noise: Noise, counts: Counts) -> Fit {
     let pixels = from.map_or_else(|| start(data, noise, counts), |fit| Arc::clone(&fit.pixels));
     Model::begun(data, pixels, pieces, noise, counts).fitted(data, noise, counts, WHOLE)
 }
 
 /// The same from where a part of the sets `led` it, pixels and pieces, if that fits all sets better than `from`: where effects are weak, what a part says of the
-/// pixels is too noisy to begin with.
-pub fn fit_led(data: &Data, from: &Fit, pieces: Vec<Piece>, led: Option<Led>, noise: Noise) -> Fit {
+/// pixels is too noisy to begin with. To its `end`.
+pub fn fit_led(data: &Data, from: &Fit, pieces: Vec<Piece>, led: Option<Led>, noise: Noise, end: End) -> Fit {
     let begun = |(pixels, pieces): Led| Model::begun(data, pixels, pieces, noise, &|_| true);
     let led = led.map(begun).filter(|model| model.round.left() < from.left());
     let start = led.unwrap_or_else(|| begun((Arc::clone(&from.pixels), pieces)));
-    start.fitted(data, noise, &|_| true, WHOLE)
+    start.fitted(data, noise, &|_| true, end)
 }
 
 /// Pixels and pieces beside each other.
@@ -150,37 +152,30 @@ pub type Led = (Arc<Pixels>, Vec<Piece>);
 /// The same from the pixels of `from` on, to all sets, given up where its [cost](Fit::cost) will clearly stay beyond `most`: what comes then costs more than
 /// that, and no more is known of it.
 pub fn fit_below(data: &Data, from: &Fit, pieces: Vec<Piece>, noise: Noise, most: f64) -> Fit {
-    let start = Model::begun(data, Arc::clone(&from.pixels), pieces, noise, &|_| true);
-    start.fitted(data, noise, &|_| true, End { most, ..WHOLE })
+    fit_led(data, from, pieces, None, noise, End { most, ..WHOLE })
 }
 
-/// The same from the pixels of `from` on, to the sets of which `counts` is true, until a further step would take away less than `enough`.
-pub fn fit_until(
-    data: &Data,
-    from: &Fit,
-    pieces: Vec<Piece>,
-    noise: Noise,
-    counts: &(dyn Fn(usize) -> bool + Sync),
-    enough: f64,
-) -> Fit {
+/// The same from the pixels of `from` on, to the sets of which `counts` is true, to its `end`.
+pub fn fit_until(data: &Data, from: &Fit, pieces: Vec<Piece>, noise: Noise, counts: Counts, end: End) -> Fit {
     let start = Model::begun(data, Arc::clone(&from.pixels), pieces, noise, counts);
-    start.fitted(data, noise, counts, End { enough, ..WHOLE })
+    start.fitted(data, noise, counts, end)
 }
 
 /// Where a fit ends.
 #[derive(Clone, Copy)]
-struct End {
-    /// A further step would take away less.
-    enough: f64,
+pub struct End {
+    /// A further step would take away less of chi squared.
+    pub enough: f64,
+    /// Nor would it take away this share of what pieces have taken of so much.
+    pub share_of: (f64, f64),
     /// It will cost more than so many nats.
-    most: f64,
+    pub most: f64,
 }
 
 /// Where a fit ends that is gone on with as long as steps take anything away.
-const WHOLE: End = End { enough: ENOUGH, most: f64::INFINITY };
-
-/// Which sets count, by their numbers.
-type Counts<'a> = &'a (dyn Fn(usize) -> bool + Sync);
+pub const WHOLE: End = End { enough: ENOUGH, share_of: (0.0, 0.0), most: f64::INFINITY };
+/// Where one ends that takes no step.
+pub const AS_IT_IS: End = End { enough: f64::INFINITY, ..WHOLE };
 
 /// A model, and the normal equations around it.
 struct Model {
@@ -211,15 +206,17 @@ impl Model {
     }
 
     /// Where it ends.
-    fn fitted(self, data: &Data, noise: Noise, counts: Counts, End { enough, most }: End) -> Fit {
+    fn fitted(self, data: &Data, noise: Noise, counts: Counts, end: End) -> Fit {
+        let End { enough, share_of: (share, of), most } = end;
+        let enough = |here: &Self| enough.max(share * (of - here.round.left()));
         let step = |here: &Self, may_climb: bool| {
             // Shapes are fitted from the second step on only, on a hill nothing is known of the valley behind it, and far from the data steps promise too little.
             let is_hopeless = here.came_down && !here.round.is_far() && here.round.hoped() > most;
             let is_there =
-                here.is_stuck || here.crept == CREEPING.0 || is_hopeless || here.round.gain < enough;
+                here.is_stuck || here.crept == CREEPING.0 || is_hopeless || here.round.gain < enough(here);
             if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
         };
-        descend(self, ITERATIONS, enough, &step, &|model| model.round.left()).end()
+        descend(self, ITERATIONS, &enough, &step, &|model| model.round.left()).end()
     }
 
     /// After the first step, of all [strides](Stride), that does not lead uphill, or, where it `may_climb`, not far; nothing where there is none, or none is
@@ -272,12 +269,7 @@ impl Model {
 }
 
 /// One step of Gauss and Newton from `fit` for the sets of which `counts` is true.
-pub fn improved(
-    data: &Data,
-    fit: &Fit,
-    noise: Noise,
-    counts: &(dyn Fn(usize) -> bool + Sync),
-) -> (Arc<Pixels>, Vec<Piece>) {
+pub fn improved(data: &Data, fit: &Fit, noise: Noise, counts: Counts) -> (Arc<Pixels>, Vec<Piece>) {
     let round = Round::new(data, &fit.pixels, &fit.pieces, noise, counts);
     round.step(&fit.pixels, fit.pieces.clone(), &round.theta)
 }
@@ -299,13 +291,7 @@ struct Round {
 }
 
 impl Round {
-    fn new(
-        data: &Data,
-        pixels: &Arc<Pixels>,
-        pieces: &[Piece],
-        noise: Noise,
-        counts: &(dyn Fn(usize) -> bool + Sync),
-    ) -> Self {
+    fn new(data: &Data, pixels: &Arc<Pixels>, pieces: &[Piece], noise: Noise, counts: Counts) -> Self {
         let (tangents, columns) = Tangents::new(data, pixels, pieces, &[]);
         let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
         let (gram, series) = Gram::visited(data, &tangents, noise, counts, &visit, &Series::and);

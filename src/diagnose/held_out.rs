@@ -235,7 +235,7 @@ mod tests {
         Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor, taken,
     };
     use crate::diagnose::finished::unfitted;
-    use crate::diagnose::fit::fit_until;
+    use crate::diagnose::fit::{AS_IT_IS, fit_until};
     use crate::diagnose::pieces::Piece;
     use crate::diagnose::stated_noise;
     use crate::frames::{Geometry, RawSets};
@@ -291,7 +291,7 @@ mod tests {
         let mut pixels = (*baseline.pixels).clone();
         pixels.ambient_dn.iter_mut().for_each(|ambient_dn| *ambient_dn += 0.5);
         let brighter = Fit { pixels: Arc::new(pixels), ..baseline.clone() };
-        let brighter = fit_until(&data, &brighter, Vec::new(), noise, &|_| true, f64::INFINITY);
+        let brighter = fit_until(&data, &brighter, Vec::new(), noise, &|_| true, AS_IT_IS);
         assert!(brighter.unreached > 100.0, "it is not settled: {}", brighter.unreached);
         let difference = baseline.chi2 - brighter.chi2;
         assert!(difference.abs() < 5.0, "{difference}");

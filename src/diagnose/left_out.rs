@@ -1,7 +1,7 @@
 //! What is left out before anything is looked for: pixels with noise of their own, and sets that are unlike their neighbours.
 
 use super::data::Data;
-use super::fit::{Fit, fit, fit_until};
+use super::fit::{AS_IT_IS, Fit, fit, fit_until};
 use super::noise::Noise;
 use super::noisy_pixels::noisy_pixels;
 use super::settle::outlying;
@@ -66,9 +66,7 @@ impl LeftOut {
             [] => Vec::new(),
             _ if self.outlying.is_empty() => outlying(&fitted.series),
             // As the fit without them has them.
-            pieces => {
-                outlying(&fit_until(quiet, fitted, pieces.to_vec(), noise, &|_| true, f64::INFINITY).series)
-            }
+            pieces => outlying(&fit_until(quiet, fitted, pieces.to_vec(), noise, &|_| true, AS_IT_IS).series),
         };
         let has_more = outlying.iter().any(|set| !self.outlying.contains(set));
         let are_others = has_more || !is_explained && outlying != self.outlying;

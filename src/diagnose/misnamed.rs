@@ -75,7 +75,7 @@ fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<(
 
 /// What frames and sets say where the effect of this `name` is taken out of what was `found`, and all else is as it was fitted.
 fn without(data: &Data, found: &Found, noise: Noise, name: &str) -> Series {
-    let others: Vec<_> = found.fit.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
+    let others = found.fit.pieces_without(name);
     let (tangents, _) = Tangents::new(data, &found.fit.pixels, &others, &[]);
     let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
     Gram::visited(data, &tangents, noise, &|_| true, &visit, &Series::and).1

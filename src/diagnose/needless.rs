@@ -14,9 +14,7 @@ use std::collections::BTreeSet;
 pub fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<Named>) {
     while named.len() > 1 {
         let without = |number: usize| {
-            let name = named[number].name;
-            let pieces: Vec<Piece> =
-                current.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
+            let pieces = current.pieces_without(named[number].name);
             let numbers = named[number].score.1 as f64;
             // Of numbers that the fit may have, all.
             let shapes = |piece: &Piece| piece.effect.parameters.iter().filter(|row| row.is_shape()).count();
@@ -42,8 +40,7 @@ pub fn without_bounded(data: &Data, mut fitted: Fit, noise: Noise, named: &mut V
         (1..named.len()).rev().find(|&number| bounded.contains(named[number].name))
     };
     while let Some(last) = last(&fitted, named) {
-        let name = named.remove(last).name;
-        let others = fitted.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect();
+        let others = fitted.pieces_without(named.remove(last).name);
         fitted = finished(data, fit(data, Some(&fitted), others, noise, &|_| true), noise);
     }
     fitted

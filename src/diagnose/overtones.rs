@@ -19,6 +19,11 @@ const OVERTONES: [f64; 2] = [2.0, 3.0];
 /// Overtones that a wave would leave by chance in so small a share of campaigns are none of a wave.
 const BY_CHANCE: f64 = 1e-3;
 
+/// Whether `piece` is a wave over the codes of which there are fewer than so many `periods` among the signals.
+pub fn is_longer(data: &Data, piece: &Piece, periods: f64) -> bool {
+    piece.effect.name == OF_CODES && periods * piece.values[PERIOD] > data.span_dn()
+}
+
 /// Whether the wave over the codes that was `found` has overtones: its period, DN.
 pub fn overtones(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
     let wave = found.fit.pieces.iter().find(|piece| piece.effect.name == OF_CODES)?;

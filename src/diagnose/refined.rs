@@ -1,11 +1,12 @@
 //! An effect that was named in its usual form, in those that are seldom: tried where it is named only, as candidates they would cost more than they find.
 
 use super::completed::NEEDED_NATS;
+use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::finished::finished;
-use super::fit::{Fit, fit_below};
+use super::fit::{End, Fit, WHOLE, fit_led};
 use super::noise::Noise;
-use super::overtones::{OF_CODES, PERIOD};
+use super::overtones::{OF_CODES, is_longer};
 use super::pieces::Piece;
 use rayon::prelude::*;
 
@@ -18,58 +19,62 @@ const SELDOM: [(&str, &str, &[f64]); 3] = [
 const OF_WALLS: &str = "multipath_interference";
 /// A form over the codes repeats among the signals so often at least.
 const REPEATS: f64 = 2.0;
+/// Among the ways of an effect, the number of that in which it is.
+const UNCHANGED: usize = 0;
 /// Number of the form of a wave over the codes.
 const FORM: usize = 3;
-/// A form may be seldom in two ways.
-const TIMES: usize = 2;
 
 /// Whether `chosen` is what is seldom of the `choice` of the effect `name`, in which it is not looked for from the start.
 pub fn is_seldom(name: &str, choice: &str, chosen: f64) -> bool {
     SELDOM.iter().any(|(effect, of, choices)| (*effect, *of) == (name, choice) && choices.contains(&chosen))
 }
 
-/// The `piece` with what is `chosen` of its `choice`; nothing where it has that.
+/// The `piece` with what is `chosen` of its `choice`; nothing where what it has is seldom already: that was the best of all.
 fn with_choice(piece: &Piece, choice: &str, chosen: f64) -> Option<Piece> {
     let number = piece.effect.parameters.iter().position(|parameter| parameter.name == choice)?;
     let mut other = piece.clone();
     other.values[number] = chosen;
-    (piece.values[number] != chosen).then_some(other)
+    (!is_seldom(piece.effect.name, choice, piece.values[number])).then_some(other)
+}
+
+/// What is `fitted` [as it is](UNCHANGED), and with each of what is seldom of the effect `name`.
+fn ways(fitted: &Fit, name: &'static str) -> Vec<Entrant> {
+    let is_of = |piece: &Piece| piece.effect.name == name;
+    let other = |choice: &str, chosen: f64| -> Option<Vec<Piece>> {
+        let anew = |piece: &Piece| {
+            if is_of(piece) { with_choice(piece, choice, chosen) } else { Some(piece.clone()) }
+        };
+        fitted.pieces.iter().any(is_of).then(|| fitted.pieces.iter().map(anew).collect()).flatten()
+    };
+    let of_effect = SELDOM.iter().filter(|(effect, ..)| *effect == name);
+    let others = of_effect
+        .flat_map(|&(_, choice, choices)| choices.iter().filter_map(move |&chosen| other(choice, chosen)));
+    let all = [fitted.pieces.clone()].into_iter().chain(others).enumerate();
+    all.map(|(block, pieces)| Entrant { block, name, pieces, led: None }).collect()
 }
 
 /// What is `fitted`, or the same with an effect of which `is_new` in a form that is seldom, where that fits clearly better by no more numbers.
 pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Fit {
-    for _ in 0..TIMES {
-        match better(data, &fitted, noise, is_new) {
-            Some(better) => fitted = better,
-            None => break,
-        }
+    while let Some(better) = better(data, &fitted, noise, is_new) {
+        fitted = better;
     }
     fitted
 }
 
 /// The best of what is one choice away from what is `fitted`, and clearly better.
 fn better(data: &Data, fitted: &Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Option<Fit> {
-    let other = |name: &str, choice: &str, chosen: f64| -> Option<Vec<Piece>> {
-        let is_of = |piece: &Piece| piece.effect.name == name;
-        let anew = |piece: &Piece| {
-            if is_of(piece) { with_choice(piece, choice, chosen) } else { Some(piece.clone()) }
-        };
-        let is_there = is_new(name) && fitted.pieces.iter().any(is_of);
-        is_there.then(|| fitted.pieces.iter().map(anew).collect()).flatten()
-    };
-    let ways = SELDOM.iter().flat_map(|&(name, choice, choices)| {
-        choices.iter().filter_map(move |&chosen| other(name, choice, chosen))
-    });
-    let tried: Vec<Vec<Piece>> = ways.collect();
     let most = fitted.cost() - NEEDED_NATS;
-    let fits: Vec<Fit> =
-        tried.into_par_iter().map(|pieces| fit_below(data, fitted, pieces, noise, most)).collect();
-    // One that is no number is none, and a jump that no signal shows again is a step, which repeats nowhere.
-    let is_once = |piece: &Piece| {
-        piece.effect.name == OF_CODES
-            && piece.values[FORM] != 0.0
-            && REPEATS * piece.values[PERIOD] > data.span_dn()
-    };
+    // A jump that no signal shows again is a step, which repeats nowhere.
+    let is_once = |piece: &Piece| is_longer(data, piece, REPEATS) && piece.values[FORM] != 0.0;
+    let may_repeat = |way: &Entrant| way.block == UNCHANGED || !way.pieces.iter().any(is_once);
+    let hopeful =
+        |name| hopeful(data, fitted, ways(fitted, name).into_iter().filter(may_repeat).collect(), noise);
+    let there = [OF_CODES, OF_WALLS].into_iter().filter(|name| is_new(name));
+    let tried: Vec<Entrant> = there.flat_map(hopeful).filter(|entrant| entrant.block != UNCHANGED).collect();
+    let end = End { most, ..WHOLE };
+    let of = |Entrant { pieces, led, .. }: Entrant| fit_led(data, fitted, pieces, led, noise, end);
+    let fits: Vec<Fit> = tried.into_par_iter().map(of).collect();
+    // One that is no number is none.
     let is_better = |fit: &Fit| fit.cost() < most && !fit.pieces.iter().any(is_once);
     let better = fits.into_iter().filter(is_better);
     better.min_by(|a, b| a.cost().total_cmp(&b.cost())).map(|best| finished(data, best, noise))

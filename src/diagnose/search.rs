@@ -3,16 +3,16 @@
 use super::alias::odds_against;
 use super::alone::Alone;
 use super::completed::Completed;
-use super::contest::{Entrant, hopeful};
+use super::contest::{self, Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
 use super::exchange::exchange;
 use super::finished::finished;
-use super::fit::{Fit, fit, fit_led};
+use super::fit::{Fit, fit};
 use super::lamps::FLICKER;
 use super::needless::{drop_needless, without_bounded};
 use super::noise::Noise;
-use super::overtones::{OF_CODES, PERIOD};
+use super::overtones::is_longer;
 use super::pass::{Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates};
 use super::power::Detectable;
@@ -21,7 +21,6 @@ use super::refined::refined;
 use super::simpler::Simpler;
 use super::tolerated::tolerated;
 use super::trust::Trust;
-use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
@@ -311,10 +310,7 @@ impl<'a> Search<'a> {
                     led: None,
                 };
                 let entrants = hopeful(data, current, leaders.iter().map(entrant).collect(), noise);
-                let fitted_entrant = |Entrant { block, pieces, led, .. }: Entrant| {
-                    (block, fit_led(data, current, pieces, led, noise))
-                };
-                let fits: Vec<(usize, Fit)> = entrants.into_par_iter().map(fitted_entrant).collect();
+                let fits = contest::fitted(data, current, entrants, noise);
                 let more = |fit: &Fit| fit.columns.len().saturating_sub(current.columns.len());
                 // Nor is a form exact beside what nobody described: what says the same by much fewer numbers is believed.
                 let is_simpler = |fit: &Fit, best: &Fit| {
@@ -395,6 +391,5 @@ impl<'a> Search<'a> {
 
 /// Whether a wave over the codes has no whole period among the signals: a smooth curve is the response's, as a rule, whatever its form.
 fn is_bend(data: &Data, pieces: &[Piece]) -> bool {
-    let is_long = |piece: &Piece| piece.effect.name == OF_CODES && piece.values[PERIOD] > data.span_dn();
-    pieces.iter().any(is_long)
+    pieces.iter().any(|piece| is_longer(data, piece, 1.0))
 }

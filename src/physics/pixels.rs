@@ -46,13 +46,24 @@ impl Pixels {
         (share(column, width), share(row, height))
     }
 
-    /// Sines of the angle to the camera's axis along the columns and the rows, by the obliquity and the side of the image's middle.
-    pub fn sines(&self, pixel: usize) -> [f64; 2] {
-        let (x, y) = self.place(pixel);
-        let off_axis = [x * self.geometry.width as f64, y * self.geometry.height as f64];
-        let sine = (1.0 - self.obliquity[pixel].powi(-2)).max(0.0).sqrt();
-        let whole = libm::hypot(off_axis[0], off_axis[1]);
-        off_axis.map(|off| if whole > 0.0 { sine * off / whole } else { 0.0 })
+    /// What the direction of each pixel has of what lies `aside` of the camera's axis, along the columns and the rows: the sines of its angle to the
+    /// axis, by the obliquity and the side of the image's middle, times these, added.
+    pub fn along(&self, aside: [f64; 2]) -> Vec<f64> {
+        let Geometry { width, height } = self.geometry;
+        let off_axis = |index: usize, size: usize| index as f64 + 0.5 - 0.5 * size as f64;
+        let mut along = vec![0.0; self.count()];
+        let rows = along.chunks_exact_mut(width.max(1)).zip(self.obliquity.chunks_exact(width.max(1)));
+        for (row, (along, obliquity)) in rows.enumerate() {
+            let y = off_axis(row, height);
+            for (column, (along, obliquity)) in along.iter_mut().zip(obliquity).enumerate() {
+                let x = off_axis(column, width);
+                let from_middle = x * x + y * y;
+                let squared_sine = (1.0 - 1.0 / (obliquity * obliquity)).max(0.0);
+                let sine = (squared_sine / from_middle).sqrt() * (aside[0] * x + aside[1] * y);
+                *along = if from_middle > 0.0 { sine } else { 0.0 };
+            }
+        }
+        along
     }
 
     /// The pairs of [`Pixels::edges`] of a mask.
@@ -104,10 +115,13 @@ mod tests {
             |pixel: usize| (focal_px.powi(2) + aside(pixel).map(|px| px * px).iter().sum::<f64>()).sqrt();
         let obliquity = (0..count).map(|pixel| away(pixel) / focal_px).collect();
         let pixels = Pixels { obliquity, ..plain(geometry) };
+        let found = [[1.0, 0.0], [0.0, 1.0]].map(|aside| pixels.along(aside));
+        let both = pixels.along([0.3, -0.2]);
         for pixel in 0..count {
             let expected = aside(pixel).map(|px| px / away(pixel));
-            let found = pixels.sines(pixel);
+            let found = [found[0][pixel], found[1][pixel]];
             assert!((0..2).all(|side| (found[side] - expected[side]).abs() < 1e-12), "{pixel}: {found:?}");
+            assert!((both[pixel] - (0.3 * expected[0] - 0.2 * expected[1])).abs() < 1e-12);
         }
     }
 }

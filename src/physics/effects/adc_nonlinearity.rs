@@ -50,15 +50,19 @@ const FORMS: [Form; 4] = [
     }),
 ];
 
+/// All harmonics of a `form`; nothing of a wave.
+fn harmonics(form: f64) -> Option<[f64; HARMONICS]> {
+    let (_, harmonic) = FORMS.iter().find(|row| row.0 == form)?;
+    Some(std::array::from_fn(|n| harmonic(n as f64 + 1.0)))
+}
+
 fn act(values: &[f64], exposure: &mut Exposure) {
     let (pedestal_dn, cosine_dn, sine_dn, period_dn) =
         (exposure.pixels.pedestal_dn, values[0], values[1], values[2]);
     let signals: &mut [f64] = &mut exposure.signal_dn;
-    match FORMS.iter().find(|(form, _)| *form == values[3]) {
-        Some((_, harmonic)) => {
-            let harmonics: [f64; HARMONICS] = std::array::from_fn(|n| harmonic(n as f64 + 1.0));
-            add_form(signals, pedestal_dn, [cosine_dn, sine_dn], period_dn, harmonics);
-        }
+    match harmonics(values[3]) {
+        Some(harmonics) => add_form(signals, pedestal_dn, [cosine_dn, sine_dn], period_dn, harmonics),
+        // A wave by itself is what is looked for everywhere: it does without the others' twelve.
         None => {
             widest!((signals: &'a mut [f64], pedestal_dn: f64, cosine_dn: f64, sine_dn: f64, period_dn: f64) {
                 for signal in signals {
@@ -109,9 +113,8 @@ mod tests {
     #[test]
     fn forms_are_what_they_are_called() {
         let shown = |form: f64, share: f64| {
-            let harmonic = FORMS.iter().find(|row| row.0 == form).unwrap().1;
             let mut signal = [share * 100.0];
-            add_form(&mut signal, 0.0, [0.0, 2.0], 100.0, std::array::from_fn(|n| harmonic(n as f64 + 1.0)));
+            add_form(&mut signal, 0.0, [0.0, 2.0], 100.0, harmonics(form).unwrap());
             (signal[0] - share * 100.0) / 2.0
         };
         for share in [0.25, 0.3, 0.4, 0.6, 0.75] {

@@ -36,14 +36,12 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     let pixels = Arc::clone(&exposure.pixels);
     let Exposure { phase_rad: phases_rad, range_m, amplitude_dn, constant_dn, frequency_hz, .. } = exposure;
     // The squared way out, m^2, as the light falls with it: what the pixel's direction says of the emitters' middle goes with the range.
-    let squared_out_m2 = |(pixel, &range_m): (usize, &f64)| {
-        let aside_m = match middle_m {
-            [0.0, 0.0] => 0.0,
-            _ => pixels.sines(pixel).iter().zip(middle_m).map(|(sine, middle_m)| sine * middle_m).sum(),
-        };
-        range_m * (range_m - 2.0 * aside_m) + of_light_m2
+    let aside_m = match middle_m {
+        [0.0, 0.0] => vec![0.0; range_m.len()],
+        _ => pixels.along(middle_m),
     };
-    let squared_out_m2: Vec<f64> = range_m.iter().enumerate().map(squared_out_m2).collect();
+    let squared_out_m2 = |(range_m, aside_m): (&f64, f64)| range_m * (range_m - 2.0 * aside_m) + of_light_m2;
+    let squared_out_m2: Vec<f64> = range_m.iter().zip(aside_m).map(squared_out_m2).collect();
     for ((phase, range_m), squared_out_m2) in phases_rad.iter_mut().zip(&*range_m).zip(&squared_out_m2) {
         // The mean of both ways is what a range of this phase would be.
         let out_m = (squared_out_m2 + values[0]).max(0.0).sqrt();

@@ -34,8 +34,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     let is_constant = values[2] > 0.5;
     let falls_with_square = is_constant || values[2] < -1.5;
     let is_one_share = values[2] < -0.5;
-    let nearer_m = if is_constant { None } else { towards(&exposure.pixels, values[3]) };
-    let nearer_m: Vec<f64> = match nearer_m {
+    let nearer_m: Vec<f64> = match towards(&exposure.pixels, values[3]) {
         Some(sines) => exposure.range_m.iter().zip(sines).map(|(range_m, sine)| range_m * sine).collect(),
         None => vec![0.0; exposure.range_m.len()],
     };
@@ -85,9 +84,8 @@ fn act(values: &[f64], exposure: &mut Exposure) {
 
 /// Of every pixel, the sine of the angle by which it looks towards a wall that stands `beside`; nothing where no side is nearer.
 fn towards(pixels: &Pixels, beside: f64) -> Option<Vec<f64>> {
-    let side = usize::from(beside.abs() < 0.75);
-    let sine = |pixel: usize| beside.signum() * pixels.sines(pixel)[side];
-    (beside != 0.0).then(|| (0..pixels.target.len()).map(sine).collect())
+    let side = beside.signum();
+    (beside != 0.0).then(|| pixels.along(if beside.abs() < 0.75 { [0.0, side] } else { [side, 0.0] }))
 }
 
 /// The light that comes directly, a value a pixel each.
