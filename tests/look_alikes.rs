@@ -236,6 +236,7 @@ fn a_strong_jitter_is_a_jitter() {
 
 /// Where frames' errors are known, what they share is no evidence, and what they do not share is all there is.
 #[test]
+#[ignore = "minutes: make slow"]
 fn weak_effects_are_named_beside_a_strong_jitter() {
     let jitter = "timing_jitter_of_frames:sigma_s=0.005";
     let weak = [
@@ -358,6 +359,7 @@ fn a_scale_of_steps_and_offsets_is_no_drift() {
 
 /// What moves to the left brings what lies on the right: its tangent is another one than that of what moves to the right.
 #[test]
+#[ignore = "minutes: make slow"]
 fn what_moves_sideways_is_named_to_whichever_side_it_moves() {
     // The way of a carriage that is askew goes to both sides.
     let both_ways =
@@ -389,6 +391,7 @@ fn an_emitter_beside_the_lens_is_named_with_its_light_and_without() {
 
 /// Sets with 50 DN more than others are left out beside a falloff that explains a hundred times what they do, and nothing is named for them.
 #[test]
+#[ignore = "minutes: make slow"]
 fn a_strong_effect_hides_no_outliers() {
     const ODD: [(usize, usize); 3] = [(0, 17), (0, 60), (1, 20)];
     let folder = tempfile::tempdir().unwrap();

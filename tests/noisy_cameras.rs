@@ -19,7 +19,7 @@ type Place = (usize, usize, usize);
 /// A campaign with `effects`, to whose codes `noise` is added.
 fn campaign(folder: &Path, name: &str, effects: &[&str], noise: impl Fn(Place, f64) -> f64) -> PathBuf {
     let size = format!("{WIDTH}x{HEIGHT}");
-    let own = ["--size", &size, "--seed", "31"];
+    let own = ["--size", &size, "--seed", "31", "--recordings", "four-sweep,four-rail,wdft-rail,wdft-motion"];
     let out = simulated(folder.join(name), &[&own[..], &concealed(effects)].concat());
     rewrite(&out, |Sample { recording, set, frame, row, column, code }| {
         // No recording has more frames a set, or more sets, than this.

@@ -98,10 +98,11 @@ fn real_scenes_name_the_response_and_tell_each_other_of_it() {
         let out = folder.path().join(scene);
         import("stack", &files, "", &out);
         let camera = folder.path().join(format!("{scene}.toml"));
-        let [stack, written] = [&out, &camera].map(|path| path.to_str().unwrap());
-        let (good, text) = vuris(&["diagnose", stack, "--json", "-", "--write-camera", written]);
+        let json = folder.path().join(format!("{scene}.json"));
+        let [stack, answer, written] = [&out, &json, &camera].map(|path| path.to_str().unwrap());
+        let (good, text) = vuris(&["diagnose", stack, "--json", answer, "--write-camera", written]);
         assert!(good, "{text}");
-        let alone: Value = serde_json::from_str(&text).unwrap();
+        let alone: Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
         assert!(names(&alone).contains(&"intensity_nonlinearity".to_owned()), "{scene}: {alone:#}");
         let [before_dn, after_dn] = held_out_dn(&alone);
         assert!(before_dn > 8.0 && after_dn < 4.5, "{scene}: {before_dn} {after_dn}");

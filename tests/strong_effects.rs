@@ -95,6 +95,7 @@ fn what_is_weak_beside_a_strong_effect_is_named_too() {
 
 /// Fourteen times the noise of all samples is a sixth of the ambient light that flickers: what blurs edges by 2 % is no error of that, nor is a step that is off.
 #[test]
+#[ignore = "minutes: make slow"]
 fn what_is_weak_beside_a_flicker_far_above_the_noise_is_named_too() {
     const FLICKER: &str = "ambient_flicker:cosine=0.15,sine=0.1";
     for weak in ["charge_crosstalk:share=0.02", "phase_step_scale:relative=0.002"] {
@@ -114,6 +115,7 @@ fn what_is_weak_beside_a_flicker_far_above_the_noise_is_named_too() {
 
 /// One name is trusted beside a flicker whose form may leave more, and only if nothing is left: of two weak effects none is named, and what is left is told.
 #[test]
+#[ignore = "minutes: make slow"]
 fn what_would_leave_something_is_not_trusted() {
     let folder = tempfile::tempdir().unwrap();
     let effects = [
@@ -230,6 +232,7 @@ fn errors_that_come_again_at_the_same_place_are_no_jitter() {
 
 /// What a form leaves is nearly the same where the target is again, or near; a jitter is new each time, and is named beside scatter whose form may leave a thousand times as much.
 #[test]
+#[ignore = "minutes: make slow"]
 fn a_jitter_is_named_beside_a_strong_effect() {
     let folder = tempfile::tempdir().unwrap();
     let effects = ["lens_scatter:share=0.1", "clock_jitter:sigma_rad=0.004"];

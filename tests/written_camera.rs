@@ -137,6 +137,7 @@ const LESS: [(&str, &[&str], &str, f64); 4] = [
 ];
 
 #[test]
+#[ignore = "minutes: make slow"]
 fn what_the_camera_includes_too_much_of_is_taken_away() {
     let folder = tempfile::tempdir().unwrap();
     for (included, options, key, expected) in LESS {
