@@ -148,29 +148,35 @@ mod tests {
     /// Light by way of a wall, far above the noise: of what comes from afar to where it explains all, the last steps count; of what never will, they do not.
     #[test]
     fn what_may_be_the_best_one_is_fitted_to_its_end() {
-        let size = Geometry { width: 16, height: 12 };
-        let truth = injection("multipath_interference:relative_amplitude=0.3,wall_distance_m=0.7").unwrap();
-        let recordings = taken(size, 2, &[truth], &["four-rail"]).unwrap();
-        let data = Data::of(&recordings, Vec::new()).unwrap();
-        let noise = stated_noise(&data);
-        let baseline = unfitted(&data, noise);
-        let entrant = |block, name, strengths: &[usize], shapes: &[usize]| {
-            let pieces = vec![Piece::off(name, strengths, shapes)];
-            Entrant { block, name, pieces, led: None }
-        };
-        let entrants = || {
-            let mut wall = entrant(3, "multipath_interference", &[0, 1], &[0]);
-            wall.pieces[0].values[1] = 0.4;
-            vec![wall, entrant(5, "image_lag", &[0], &[0]), entrant(8, "phase_step_scale", &[0], &[0])]
-        };
-        let fits = fitted(&data, &baseline, entrants(), noise);
-        assert_eq!(fits.iter().map(|(block, _)| *block).collect::<Vec<_>>(), [3, 5, 8]);
-        let explained = baseline.left() - fits[0].1.left();
-        assert!(explained > 1e4 && fits[0].1.unreached < ENOUGH, "{explained} {}", fits[0].1.unreached);
-        for (entrant, (_, found)) in entrants().into_iter().zip(&fits) {
-            let whole = fit(&data, Some(&baseline), entrant.pieces, noise, &|_| true);
-            let more = found.left() - whole.left();
-            assert!(more.abs() < ROUGH * explained, "{}: {more}", entrant.name);
+        for share in ["0.2", "0.35", "0.5", "0.7"] {
+            let size = Geometry { width: 16, height: 12 };
+            let truth = format!("multipath_interference:relative_amplitude={share},wall_distance_m=0.7");
+            let recordings = taken(size, 2, &[injection(&truth).unwrap()], &["four-rail"]).unwrap();
+            let data = Data::of(&recordings, Vec::new()).unwrap();
+            let noise = stated_noise(&data);
+            let baseline = unfitted(&data, noise);
+            let entrant = |block, name, free: &[usize]| Entrant {
+                block,
+                name,
+                pieces: vec![Piece::off(name, free, &[0])],
+                led: None,
+            };
+            let entrants = || {
+                let mut wall = entrant(3, "multipath_interference", &[0, 1]);
+                wall.pieces[0].values[1] = 0.2;
+                vec![wall, entrant(5, "image_lag", &[0]), entrant(8, "phase_step_scale", &[0])]
+            };
+            let fits = fitted(&data, &baseline, entrants(), noise);
+            assert_eq!(fits.iter().map(|(block, _)| *block).collect::<Vec<_>>(), [3, 5, 8]);
+            let explained = baseline.left() - fits[0].1.left();
+            let unreached = fits[0].1.unreached;
+            assert!(explained > 5e3 && unreached < ENOUGH, "{share}: {explained}, {unreached}");
+            for (entrant, (_, found)) in entrants().into_iter().zip(&fits) {
+                let whole = fit(&data, Some(&baseline), entrant.pieces, noise, &|_| true);
+                // From afar one way may end short of where a second one leads.
+                let more = found.left() - whole.left();
+                assert!(more < 2.0 * ROUGH * explained, "{}: {more}", entrant.name);
+            }
         }
     }
 

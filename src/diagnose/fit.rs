@@ -208,15 +208,14 @@ impl Model {
     /// Where it ends.
     fn fitted(self, data: &Data, noise: Noise, counts: Counts, end: End) -> Fit {
         let End { enough, share_of: (share, of), most } = end;
-        let enough = |here: &Self| enough.max(share * (of - here.round.left()));
+        let is_enough = |here: &Self| here.round.gain < enough.max(share * (of - here.round.left()));
         let step = |here: &Self, may_climb: bool| {
             // Shapes are fitted from the second step on only, on a hill nothing is known of the valley behind it, and far from the data steps promise too little.
             let is_hopeless = here.came_down && !here.round.is_far() && here.round.hoped() > most;
-            let is_there =
-                here.is_stuck || here.crept == CREEPING.0 || is_hopeless || here.round.gain < enough(here);
+            let is_there = here.is_stuck || here.crept == CREEPING.0 || is_hopeless || is_enough(here);
             if is_there { None } else { here.stepped(may_climb, data, noise, counts) }
         };
-        descend(self, ITERATIONS, &enough, &step, &|model| model.round.left()).end()
+        descend(self, ITERATIONS, enough, &step, &|model| model.round.left()).end()
     }
 
     /// After the first step, of all [strides](Stride), that does not lead uphill, or, where it `may_climb`, not far; nothing where there is none, or none is

@@ -12,11 +12,11 @@ const SLOW: usize = 2;
 
 /// Where at most so `many` steps lead from `start`, and, if the way was lower before, so many from there that may not lead uphill (the watchdog technique
 /// of Chamberlain, Powell, Lemarechal and Pedersen 1982, with the whole way for its relaxed part). `step` is given a place and whether it may lead uphill;
-/// nothing is the end of the way, and so is what changes less than is `enough` there however much a step promises. `left` is what there is to be made small.
+/// nothing is the end of the way, and so is what changes less than `enough` however much a step promises. `left` is what there is to be made small.
 pub fn descend<M>(
     start: M,
     many: usize,
-    enough: &dyn Fn(&M) -> f64,
+    enough: f64,
     step: &dyn Fn(&M, bool) -> Option<M>,
     left: &dyn Fn(&M) -> f64,
 ) -> M {
@@ -28,7 +28,7 @@ pub fn descend<M>(
         for _ in 0..many {
             let Some(there) = step(&here, may_climb) else { break };
             let behind = replace(&mut here, there);
-            slow = if (left(&behind) - left(&here)).abs() < enough(&here) { slow + 1 } else { 0 };
+            slow = if (left(&behind) - left(&here)).abs() < enough { slow + 1 } else { 0 };
             if best.as_ref().is_none_or(|best| is_below(&behind, best)) {
                 best = Some(behind);
             }
@@ -57,7 +57,7 @@ mod tests {
             let further = downhill.iter().find(|way| way.0 == here).map(|way| way.1);
             if may_climb { (here + 1 < heights.len()).then_some(here + 1) } else { further }
         };
-        (descend(0, many, &|_| ENOUGH, &step, &|&place| heights[place]), steps.get())
+        (descend(0, many, ENOUGH, &step, &|&place| heights[place]), steps.get())
     }
 
     #[test]
