@@ -466,7 +466,8 @@ fn a_short_study_raises_no_alarm() {
 #[test]
 #[ignore = "minutes: make slow"]
 fn a_short_study_gives_no_name_to_what_nobody_knows() {
-    let text = study("0", "1");
+    // With the clean campaigns before them, which the seeds are counted from.
+    let text = study("3", "1");
     let row = text.lines().find(|line| line.starts_with("| an unknown effect | 30 |")).unwrap_or_default();
     let counts: Vec<usize> = row.split('|').filter_map(|cell| cell.trim().parse().ok()).collect();
     // Strength, cases, right, …, wrong.
