@@ -58,8 +58,15 @@ impl Case<'_> {
         let is_more_there = is_comparable && self.left_there >= may_leave;
         let is_of_form = self.remainder < may_leave / DISBELIEF || !is_more_there;
         let leaves_little = self.remainder < may_leave && is_of_form && !(self.stays && names > 2);
-        // A simulation of which nothing is described leaves out several things at once: what explains most of them is worth its name.
-        let most_left = if names == 1 && self.is_described { 0.1 } else { 0.5 };
+        // A simulation of which nothing is described leaves out several things at once: what explains most of them is worth its name. Of one that is described, what
+        // leaves more than its form may is something else: of thirteen such answers to campaigns of two independent generators not one had the right names. Beside
+        // random errors what is left is not known that well, and beside something that looks like an effect and is not, something must be left.
+        let knows_rest = !self.is_misnamed && !is_random;
+        let most_left = match (self.is_described, knows_rest) {
+            (true, true) => 0.0,
+            (true, false) => 0.1,
+            (false, _) => 0.5,
+        };
         // What one unknown effect does several known ones together may imitate.
         let are_many = self.is_described && names > MOST_NAMES;
         if self.are_outvoted || are_many {
@@ -72,6 +79,24 @@ impl Case<'_> {
             Verdict::Unexplained
         } else {
             Verdict::PartlyExplained
+        }
+    }
+
+    /// What speaks against all names, in words, where none is asserted.
+    pub fn against(&self) -> String {
+        let names = self.named.len() + self.at_random.0;
+        match (self.are_outvoted, self.is_described && names > MOST_NAMES) {
+            (true, _) => "a coordinate alone says as much, with fewer assumptions".to_owned(),
+            (false, true) => {
+                format!("one of {names} effects at once, which is how something unknown is taken apart")
+            }
+            (false, false) => {
+                let with = if names > 1 { "with the others that were found the fit" } else { "its fit" };
+                format!(
+                    "{with} leaves {:.1} % of the mismatch, more than its form may",
+                    100.0 * self.remainder
+                )
+            }
         }
     }
 }
@@ -105,13 +130,14 @@ mod tests {
         let one = [named("phase_step_scale", 1000.0)];
         let verdict = |remainder| case(&one, remainder).verdict();
         assert_eq!([0.0, 0.02].map(verdict), [Verdict::Explained; 2]);
-        assert_eq!(verdict(0.04), Verdict::PartlyExplained);
-        assert_eq!(verdict(0.2), Verdict::Unexplained);
-        // Of an undescribed camera, or by two names, half may be left.
-        assert_eq!(Case { is_described: false, ..case(&one, 0.2) }.verdict(), Verdict::PartlyExplained);
+        assert_eq!([0.04, 0.2].map(verdict), [Verdict::Unexplained; 2]);
         let two = [named("phase_step_scale", 1000.0), named("phase_drift", 500.0)];
-        assert_eq!(case(&two, 0.4).verdict(), Verdict::PartlyExplained);
-        assert_eq!(case(&two, 0.6).verdict(), Verdict::Unexplained);
+        assert_eq!(case(&two, 0.1).verdict(), Verdict::Unexplained);
+        // Of an undescribed camera half may be left.
+        for some in [&one[..], &two[..]] {
+            let undescribed = |remainder| Case { is_described: false, ..case(some, remainder) }.verdict();
+            assert_eq!([0.4, 0.6].map(undescribed), [Verdict::PartlyExplained, Verdict::Unexplained]);
+        }
         // Nothing is named.
         assert_eq!(case(&[], 0.0).verdict(), Verdict::Clean);
         assert_eq!(case(&[], 0.9).verdict(), Verdict::Unexplained);
@@ -121,7 +147,7 @@ mod tests {
     fn a_weak_loose_form_does_not_excuse_what_an_exact_one_leaves() {
         // The forms of scatter may leave 24 %, of a scale of steps 3 %.
         let weak = [named("phase_step_scale", 1000.0), named("lens_scatter", 50.0)];
-        assert_eq!(case(&weak, 0.1).verdict(), Verdict::PartlyExplained);
+        assert_eq!(case(&weak, 0.1).verdict(), Verdict::Unexplained);
         let strong = [named("phase_step_scale", 50.0), named("lens_scatter", 1000.0)];
         assert_eq!(case(&strong, 0.1).verdict(), Verdict::Explained);
     }
@@ -177,7 +203,7 @@ mod tests {
     fn a_random_effect_explains_what_is_left_where_it_is_the_only_name() {
         let at_random = |named, is_random| Case { at_random: (1, is_random), ..case(named, 0.05) };
         assert_eq!(at_random(&[], true).verdict(), Verdict::Explained);
-        assert_eq!(at_random(&[], false).verdict(), Verdict::PartlyExplained);
+        assert_eq!(at_random(&[], false).verdict(), Verdict::Unexplained);
         assert_eq!(Case { is_misnamed: true, ..at_random(&[], true) }.verdict(), Verdict::PartlyExplained);
         let one = [named("phase_step_scale", 1000.0)];
         assert_eq!(at_random(&one, true).verdict(), Verdict::PartlyExplained);

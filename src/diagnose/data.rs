@@ -101,9 +101,9 @@ impl Data {
     /// No recording, no camera, recordings that do not belong together, and a set of which nothing can be simulated.
     pub fn of(recordings: &[Recording], library: Vec<&'static Effect>) -> Result<Self> {
         let Some(first) = recordings.first() else {
-            return Err(
-                Problem::at("diagnosis", "no recording").expected("a recording, or a campaign of recordings")
-            );
+            return Err(Problem::at("diagnosis", "no recording")
+                .expected("a recording, or a campaign of recordings")
+                .remedy("give a folder with recording.toml, or one that has such folders"));
         };
         let camera = first.camera.clone().unwrap_or_else(|| {
             let adc_bits = recordings.iter().map(Recording::adc_bits).max().unwrap_or(16);
@@ -137,7 +137,8 @@ impl Data {
                     &first.folder,
                     "no sample counts: all codes are 0, or at full scale",
                 )
-                .expected("pixels that see light and are not clipped"));
+                .expected("pixels that see light and are not clipped")
+                .remedy("record with another exposure, or see that adc_bits is that of the converter"));
             }
             return Err(Problem::in_file(
                 &first.folder,

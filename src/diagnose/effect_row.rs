@@ -1,6 +1,7 @@
 //! A named effect as other programs read it.
 
 use super::alias::{alias_odds, odds_against};
+use super::answer::{EffectRow, EvidenceRow, ParameterRow};
 use super::bounds::is_at_bound;
 use super::data::Data;
 use super::images::{Image, also_seen, images, spread};
@@ -9,7 +10,6 @@ use super::lamps::FLICKER;
 use super::pieces::Piece;
 use super::random::{EXCESS_NOISE, Strength};
 use super::search::Named;
-use super::verdict::{EffectRow, EvidenceRow, ParameterRow};
 use crate::physics::Effect;
 use crate::recording::effect_name;
 

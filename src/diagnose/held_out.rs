@@ -12,6 +12,7 @@ use super::jitters::Jitters;
 use super::noise::Noise;
 use super::seen::{Agreement, BLOCKS, Seen, agreement, seen};
 use super::set_errors::Jitter;
+use super::untold::untold;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -214,7 +215,8 @@ fn predicted(data: &Data, by: Predictor, (group, fold): (usize, usize), is_far: 
     let Predictor { fit: of, noise, .. } = by;
     let is_held = |set: usize| set / group % FOLDS == fold;
     let (pixels, pieces) = if is_far || !of.pieces.is_empty() {
-        let fit = fit(data, Some(of), of.pieces.clone(), noise, &|set| !is_held(set));
+        let mut fit = fit(data, Some(of), of.pieces.clone(), noise, &|set| !is_held(set));
+        untold(data, of, &mut fit.pieces, noise, &|set| !is_held(set));
         (fit.pixels, fit.pieces)
     } else {
         improved(data, of, noise, &|set| !is_held(set))

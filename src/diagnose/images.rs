@@ -73,6 +73,21 @@ pub fn also_seen(images: &[Image]) -> String {
     }
 }
 
+/// Frequencies that differ by less are told as the same, Hz.
+const SAME_HZ: f64 = 0.01;
+
+/// The frequency of a line, Hz, in words, with others that frames which are taken every so many seconds see alike.
+pub fn alike(frequency_hz: f64, period_s: f64) -> String {
+    let others = frequencies(frequency_hz, period_s).into_iter().map(|other| other.0);
+    let mut others: Vec<f64> = others.filter(|hz| (hz - frequency_hz).abs() > SAME_HZ).collect();
+    others.sort_by(|a, b| (a - frequency_hz).abs().total_cmp(&(b - frequency_hz).abs()));
+    let words: Vec<String> = others.iter().take(STATED).map(|hz| format!("{hz:.2} Hz")).collect();
+    match words.is_empty() {
+        true => format!("{frequency_hz:.2} Hz"),
+        false => format!("{frequency_hz:.2} Hz (frames see {} nearly alike)", words.join(" or ")),
+    }
+}
+
 /// By how much a number of a piece, beside what its fit says, is not known because it may be that of one of the `images`: a standard deviation.
 pub fn spread(images: &[Image], fit: &Fit, piece: usize, parameter: usize) -> f64 {
     let all: f64 = 1.0 + images.iter().map(|image| image.odds).sum::<f64>();
@@ -122,7 +137,7 @@ impl Seen {
 
 /// Frequencies of lamps, Hz, that frames which are taken every so many seconds see as `frequency_hz`, and with which sign they go with it; twice the mains'
 /// only, if it is that.
-fn frequencies(frequency_hz: f64, period_s: f64) -> Vec<(f64, f64)> {
+pub fn frequencies(frequency_hz: f64, period_s: f64) -> Vec<(f64, f64)> {
     if period_s.is_nan() || period_s <= 0.0 {
         return Vec::new();
     }

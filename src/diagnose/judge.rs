@@ -5,11 +5,12 @@ use super::conclusion::{Case, Verdict};
 use super::data::Data;
 use super::finished::finished;
 use super::fit::{Fit, fit};
+use super::gains::{self, gain_of_recordings};
 use super::held_out::Predictor;
 use super::included::Forms;
 use super::location::{LOCATED_NATS, Location};
 use super::mismatch::{Place, places};
-use super::misnamed::misnamed;
+use super::misnamed::{Misnamed, misnamed};
 use super::noise::Noise;
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::Piece;
@@ -17,6 +18,7 @@ use super::random::{
     self, CLUSTER_NATS, EXCESS_NOISE, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms,
     may_be_of_light, new_each_time, of_name, random_effect, two_jitters, words,
 };
+use super::refused::{Refused, refused};
 use super::search::{Found, Named};
 use super::searched::{InProportion, Searched, searched};
 use super::tolerated::{tolerated, tolerated_as_new};
@@ -42,6 +44,8 @@ pub struct Judgement {
     pub random: Vec<(&'static str, Strength)>,
     /// The search behind it.
     pub found: Found,
+    /// What it found and is not asserted.
+    pub refused: Vec<Refused>,
     /// The fit that is asserted: the baseline where nothing is.
     pub fit: Fit,
     /// The noise, corrected where the camera's description has it too small.
@@ -75,10 +79,13 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let inflation = inflation(data, &end);
     let unlike = misnamed(data, &found, &baseline, noise, inflation);
     let is_clear = |place: &&Place| deflated(inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS;
-    let unnamed = unlike.as_ref().map(|(_, place)| place).filter(is_clear);
+    let unnamed = unlike.as_ref().map(|unlike| &unlike.place).filter(is_clear);
     let mut named = standing(&found, inflation);
+    let standing: Vec<&str> = named.iter().map(|named| named.name).collect();
+    let no_drift = gain_of_recordings(data, &found, noise);
+    named.retain(|named| no_drift != Some(named.name));
     let are_dropped = named.len() < found.named.len();
-    named.retain(|named| unlike.as_ref().is_none_or(|(name, _)| named.name != *name));
+    named.retain(|named| unlike.as_ref().is_none_or(|unlike| !unlike.names.contains(&named.name)));
     // Where nothing is asserted, nothing is fitted: names that noise brought took its whiteness with them.
     let end = if named.is_empty() { baseline.clone() } else { end };
     let [mut places, mut left] = [&baseline, &end].map(|location| self::places(data, location));
@@ -144,6 +151,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         is_described: !data.assumed.camera,
     };
     let mut verdict = case.verdict();
+    let against = case.against();
     let as_named = |&RandomEffect { name, ln_bayes, .. }: &RandomEffect| Named {
         name,
         ln_bayes,
@@ -157,6 +165,12 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         named.clear();
         random.clear();
     }
+    let of_place = |Misnamed { names, place }: &Misnamed| -> Vec<_> {
+        names.iter().map(|name| (*name, format!("what looks like it is {}", place.shape))).collect()
+    };
+    let unlike = unlike.iter().flat_map(of_place);
+    let others: Vec<_> = unlike.chain(no_drift.map(|name| (name, gains::WHY.to_owned()))).collect();
+    let refused = refused(&found, &named, &standing, &others, &against);
     // Codes without their low bits need no statistics.
     let mut remainder = remainder;
     if is_cut {
@@ -182,7 +196,20 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let shared_noise = shared.filter(|noise| noise.level != Level::Pixel).map(words);
     let after = if fit.pieces.is_empty() { baseline.clone() } else { end };
     let locations = [baseline, after];
-    Judgement { verdict, places, left, named, remainder, locations, random, found, fit, noise, shared_noise }
+    Judgement {
+        verdict,
+        places,
+        left,
+        named,
+        remainder,
+        locations,
+        random,
+        found,
+        refused,
+        fit,
+        noise,
+        shared_noise,
+    }
 }
 
 /// How exactly a wave over the codes shows its period, of the periods in the other one.

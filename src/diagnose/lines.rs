@@ -1,21 +1,34 @@
 //! Lines: what is periodic in time, or in the encoder's reading, with a period that nobody knows beforehand.
 
 use super::data::Data;
-use super::evidence::tail;
 use super::gaps::{gaps, seen_cycles};
 use super::gram::Whitened;
 use super::lamps::{MAINS_OFF, is_mains};
 use super::periodogram::{ANY, FINENESS, Scan, Sought, Sum, add_powers, chi2, greatest, longest};
+use std::f64::consts::TAU;
 
 /// What frames and sets say of errors that they share.
 #[derive(Debug, Clone, Default)]
 pub struct Series {
-    /// Recording, start (s), and what it says of ambient light.
-    frames: Vec<(usize, f64, Sum)>,
+    /// The frames, in the order in which they were seen.
+    pub frames: Vec<FrameSeen>,
     /// The sets, in the order in which they were seen.
     pub sets: Vec<SetSeen>,
     /// From a frame to the next, s.
     pub frame_period_s: f64,
+}
+
+/// What a frame says.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct FrameSeen {
+    /// Its recording.
+    pub take: usize,
+    /// Its start, s.
+    pub time_s: f64,
+    /// The phase that was commanded, turns.
+    pub turns: f64,
+    /// Of ambient light.
+    pub ambient: Sum,
 }
 
 /// What a set says.
@@ -72,7 +85,12 @@ impl Series {
         };
         let position = sum(&frame.position);
         self.frame_period_s = moment.frame_period_s;
-        self.frames.push((whitened.take, moment.time_s, sum(&frame.ambient)));
+        self.frames.push(FrameSeen {
+            take: whitened.take,
+            time_s: moment.time_s,
+            turns: (moment.step_rad + moment.offset_rad) / TAU,
+            ambient: sum(&frame.ambient),
+        });
         if moment.frame == 0 {
             self.sets.push(SetSeen {
                 number: whitened.set,
@@ -111,10 +129,10 @@ impl Series {
 
     /// What the frames of each recording say of the ambient light.
     pub fn by_take(&self) -> Vec<Vec<(f64, Sum)>> {
-        let takes = self.frames.iter().map(|frame| frame.0 + 1).max().unwrap_or(0);
+        let takes = self.frames.iter().map(|frame| frame.take + 1).max().unwrap_or(0);
         let of_take = |take: usize| {
-            let frames = self.frames.iter().filter(|frame| frame.0 == take);
-            frames.map(|&(_, time_s, sum)| (time_s, sum)).collect()
+            let frames = self.frames.iter().filter(|frame| frame.take == take);
+            frames.map(|frame| (frame.time_s, frame.ambient)).collect()
         };
         (0..takes).map(of_take).collect()
     }
@@ -134,8 +152,8 @@ impl Series {
 
     /// Standard deviation of the amplitude of a line in recording `take`, as a share of the ambient light; nothing where there is none.
     pub fn blur(&self, take: usize) -> Option<f64> {
-        let of_take = self.frames.iter().filter(|frame| frame.0 == take);
-        let information: f64 = of_take.map(|frame| frame.2.1).sum();
+        let of_take = self.frames.iter().filter(|frame| frame.take == take);
+        let information: f64 = of_take.map(|frame| frame.ambient.1).sum();
         (information > 0.0).then(|| blur(information))
     }
 
@@ -274,44 +292,11 @@ fn own(group: &[(f64, Sum)], frequency: f64, step: f64) -> f64 {
 /// Chi squared by which noise as it was stated hardly ever makes a line stronger nearby.
 pub const CLEARLY_MORE: f64 = 25.0;
 
-/// Amplitudes, with their standard deviations, that are less likely than this to be one and the same are not.
-const DISAGREEING: f64 = 1e-3;
-
-/// Of the same amplitude recordings show shares that differ by so much: a period that is not quite that of the line, outliers that were tamed.
-const UNSURE: f64 = 0.1;
-
-/// Whether amplitudes, each with its standard deviation, may be one and the same.
-pub fn agree(sizes: &[(f64, f64)]) -> bool {
-    // Noise alone has an amplitude, too (Rice 1945).
-    let size = |&(size, sigma): &(f64, f64)| (size * size - sigma * sigma).max(0.0).sqrt();
-    let mean = |sigma: &dyn Fn(f64) -> f64| {
-        let weights: f64 = sizes.iter().map(|s| sigma(s.1).powi(-2)).sum();
-        sizes.iter().map(|s| size(s) * sigma(s.1).powi(-2)).sum::<f64>() / weights
-    };
-    let about = mean(&|sigma| sigma);
-    let sigma = |sigma: f64| sigma.hypot(UNSURE * about);
-    let mean = mean(&sigma);
-    let chi2 = sizes.iter().map(|s| ((size(s) - mean) / sigma(s.1)).powi(2)).sum();
-    sizes.len() < 2 || tail(chi2, sizes.len() - 1) > DISAGREEING
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::diagnose::lamps::FLICKER_HZ;
     use crate::physics::Draws;
-    use std::f64::consts::TAU;
-
-    #[test]
-    fn equal_amplitudes_agree_and_others_do_not() {
-        assert!(agree(&[]) && agree(&[(3.0, 0.1)]));
-        assert!(agree(&[(3.0, 0.1), (3.1, 0.2), (2.9, 0.1)]));
-        assert!(!agree(&[(3.0, 0.1), (0.1, 0.1)]));
-        // One that is weak everywhere is as weak in each.
-        assert!(agree(&[(1.3, 1.0), (0.8, 1.0), (1.4, 1.0), (2.0, 1.0)]));
-        // A tenth is not known so well.
-        assert!(agree(&[(100.0, 0.1), (108.0, 0.1)]));
-    }
 
     /// Errors, m, at places, which are known to a tenth of a millimetre, less their mean.
     fn group(count: usize, at: &dyn Fn(usize) -> f64, error_m: &dyn Fn(usize) -> f64) -> Vec<(f64, Sum)> {

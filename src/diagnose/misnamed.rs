@@ -3,42 +3,62 @@
 use super::columns::Tangents;
 use super::data::Data;
 use super::gram::{Gram, Whitened};
+use super::images::alike;
 use super::lamps::{FLICKER, FLICKER_HZ};
-use super::lines::Series;
+use super::lines::{Line, Series};
 use super::location::Location;
 use super::mismatch::Place;
 use super::noise::Noise;
 use super::overtones::{OF_CODES, overtones};
 use super::search::{Found, Named};
 use super::source::{Shown, is_one, shown};
-use super::steps::step;
+use super::steps::{CURVES, step};
 
-/// Of what was `found`, the effect that is not what has its name, and where that lives; noise has `inflation` times the variance that was stated.
+/// What was named, and is something else.
+pub struct Misnamed {
+    /// The names.
+    pub names: Vec<&'static str>,
+    /// Where it lives.
+    pub place: Place,
+}
+
+/// Of what was `found`, what is not what has its name, and where that lives; noise has `inflation` times the variance that was stated.
 pub fn misnamed(
     data: &Data,
     found: &Found,
     baseline: &Location,
     noise: Noise,
     inflation: f64,
-) -> Option<(&'static str, Place)> {
+) -> Option<Misnamed> {
     // Where nothing of the camera is described, overtones may be anything else that is left.
     let waves = || if data.assumed.camera { None } else { no_wave(data, found, baseline, noise) };
     no_lamp(data, found, noise, inflation).or_else(waves)
 }
 
 /// Where something goes with the code that was taken for a wave, but has overtones, or is a step.
-fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Option<(&'static str, Place)> {
-    let named = found.named.iter().find(|named| named.name == OF_CODES)?;
+fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Option<Misnamed> {
+    found.named.iter().find(|named| named.name == OF_CODES)?;
     // A step has overtones, too, and repeats nowhere.
-    let shape = match step(data, found, noise) {
-        Some(level_dn) => format!("a step near a signal of {level_dn:.0} DN above the pedestal"),
+    let (shape, is_it): (String, &[&str]) = match step(data, found, noise) {
+        Some(level_dn) => (format!("a step near a signal of {level_dn:.0} DN above the pedestal"), &CURVES),
         None => {
             let period_dn = overtones(data, found, noise)?;
-            format!("a pattern that repeats every {period_dn:.1} DN and is no wave")
+            (format!("a pattern that repeats every {period_dn:.1} DN and is no wave"), &[OF_CODES])
         }
     };
-    let (ln_bayes, chi2, take) = (stands_for(named), named.score, baseline.take);
-    Some((OF_CODES, Place { coordinate: "code", shape, ln_bayes, chi2, looked: 1.0, take, is_random: false }))
+    let named: Vec<&Named> = found.named.iter().filter(|named| is_it.contains(&named.name)).collect();
+    let chi2 = named.iter().fold((0.0, 0), |sum, named| (sum.0 + named.score.0, sum.1 + named.score.1));
+    let ln_bayes = named.iter().map(|named| stands_for(named)).sum();
+    let place = Place {
+        coordinate: "code",
+        shape,
+        ln_bayes,
+        chi2,
+        looked: 1.0,
+        take: baseline.take,
+        is_random: false,
+    };
+    Some(Misnamed { names: named.iter().map(|named| named.name).collect(), place })
 }
 
 /// Evidence of what has this name, nats: no more than the fit kept of it.
@@ -52,13 +72,16 @@ const ALL_LIGHT: f64 = 1.0;
 const CLEARLY: f64 = 3.0;
 
 /// Where a line is that was taken for a lamp's flicker, but has several sources, or is none that lamps on the mains have.
-fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<(&'static str, Place)> {
+fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<Misnamed> {
     let named = found.named.iter().find(|named| named.name == FLICKER)?;
     let shown = shown(&found.fit, inflation);
     let clear = |shown: &Shown| shown.size.0 / shown.size.1;
     let clearest = shown.iter().max_by(|a, b| clear(a).total_cmp(&clear(b)))?;
     // What else was named has lines of its own.
     let series = without(data, found, noise, FLICKER);
+    if let Some(beat) = series.beats_more(clearest.hz, inflation) {
+        return Some(Misnamed { names: vec![FLICKER], place: of_beat(beat, shown.len(), clearest.take) });
+    }
     let what = match is_one(&shown) {
         false => "differs from recording to recording",
         true if clearest.size.0 - CLEARLY * clearest.size.1 > ALL_LIGHT => {
@@ -67,10 +90,31 @@ fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<(
         true if !series.may_be_lamps(clearest.hz, inflation) => "is not twice the mains' frequency",
         true => return None,
     };
-    let shape = format!("offset, a line of {:.2} Hz that {what}", clearest.hz);
+    let shape = format!("offset, a line of {} that {what}", alike(clearest.hz, series.frame_period_s));
     let looked = series.in_time(FLICKER_HZ).map_or(1.0, |line| line.looked);
     let (ln_bayes, chi2, take) = (stands_for(named), named.score, clearest.take);
-    Some((FLICKER, Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false }))
+    let place = Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false };
+    Some(Misnamed { names: vec![FLICKER], place })
+}
+
+/// Numbers of a beat cost so many nats each.
+const FREEDOM_NATS: f64 = 3.0;
+
+/// Where a beat is that so many recordings show, most of all this one: each has its own phase.
+fn of_beat(beat: Line, recordings: usize, take: usize) -> Place {
+    let numbers = 2 * recordings;
+    Place {
+        coordinate: "time_s",
+        shape: format!(
+            "offset, a beat of {:.2} Hz that follows the phase steps, as another light's that is modulated",
+            beat.frequency.abs()
+        ),
+        ln_bayes: 0.5 * beat.chi2 - beat.looked.ln() - FREEDOM_NATS * numbers as f64,
+        chi2: (beat.chi2, numbers),
+        looked: beat.looked,
+        take,
+        is_random: false,
+    }
 }
 
 /// What frames and sets say where the effect of this `name` is taken out of what was `found`, and all else is as it was fitted.

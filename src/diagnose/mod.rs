@@ -4,7 +4,10 @@ mod acting;
 mod again;
 mod alias;
 mod alone;
+mod amplitudes;
+mod answer;
 mod backgrounds;
+mod beats;
 mod block;
 mod bounds;
 mod camera;
@@ -26,6 +29,7 @@ mod exchange;
 mod finished;
 mod fit;
 mod fittest;
+mod gains;
 mod gaps;
 mod gram;
 mod grid;
@@ -66,6 +70,8 @@ mod proposals;
 mod random;
 mod ranges;
 mod refined;
+mod refused;
+mod ruled_out;
 mod search;
 mod searched;
 mod seen;
@@ -87,6 +93,8 @@ mod together;
 mod tolerated;
 mod tried;
 mod trust;
+mod uneven;
+mod untold;
 mod verdict;
 mod vote;
 mod watchdog;
@@ -95,6 +103,10 @@ mod white;
 mod whiten;
 
 pub use alone::Alone;
+pub use answer::{
+    Answer, EffectRow, EvidenceRow, Invisible, LocatedRow, NextRecording, ParameterRow, Remainder, RuledOut,
+    Smallest,
+};
 pub use camera::camera_with;
 pub use conclusion::Verdict;
 pub use data::{Assumed, Data, Take};
@@ -111,9 +123,8 @@ pub use power::Detectable;
 pub use profiles::{Point, Profile};
 pub use search::{Found, Named};
 pub use seen::Agreement;
-
 pub use simpler::Simpler;
-pub use verdict::{Answer, Diagnosis, EffectRow, LocatedRow, NextRecording, RuledOut, diagnose};
+pub use verdict::{Diagnosis, diagnose};
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise, and what it includes of noise and errors at random.
 pub fn stated_noise(data: &Data) -> Noise {

@@ -37,7 +37,17 @@ pub struct Scan {
 
 impl Scan {
     /// Of all groups, each with a phase of its own.
-    pub fn of(groups: &[Vec<(f64, Sum)>], (low, high): (f64, f64), sought: Sought) -> Option<Self> {
+    pub fn of(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), sought: Sought) -> Option<Self> {
+        Self::turned(groups, &[], ends, sought)
+    }
+
+    /// The same of lines whose phase is another one at each sample, by so many `turns`, group by group, or, where there are none, by none.
+    pub fn turned(
+        groups: &[Vec<(f64, Sum)>],
+        turns: &[Vec<f64>],
+        (low, high): (f64, f64),
+        sought: Sought,
+    ) -> Option<Self> {
         let longest = longest(groups);
         if longest <= 0.0 {
             return None;
@@ -47,8 +57,9 @@ impl Scan {
         let starts: Vec<usize> = (0..count).step_by(TOGETHER).collect();
         let powers = starts.into_par_iter().flat_map_iter(|start| {
             let mut powers = vec![0.0; TOGETHER.min(count - start)];
-            for group in groups {
-                add_powers(group, low + start as f64 * step, step, sought, &mut powers);
+            for (number, group) in groups.iter().enumerate() {
+                let turns = turns.get(number).map_or(&[][..], |turns| turns);
+                add_turned(group, turns, (low + start as f64 * step, step), sought, &mut powers);
             }
             powers
         });
@@ -125,17 +136,29 @@ fn turned(samples: &mut [Turning]) -> [f64; 7] {
 
 /// Adds the powers at `frequency` and at those after it, each `step` above the last, of what is `sought`.
 pub fn add_powers(group: &[(f64, Sum)], frequency: f64, step: f64, sought: Sought, powers: &mut [f64]) {
+    add_turned(group, &[], (frequency, step), sought, powers);
+}
+
+/// The same of lines whose phase is another one at each sample, by so many `turns`, if there are any.
+fn add_turned(
+    group: &[(f64, Sum)],
+    turns: &[f64],
+    (frequency, step): (f64, f64),
+    sought: Sought,
+    powers: &mut [f64],
+) {
     let angle = |turns: f64| cos_sin(TAU * (turns - turns.floor()));
-    let turning = |some: &[(f64, Sum)]| {
+    let turning = |(first, some): (usize, &[(f64, Sum)])| {
         let mut lanes: Turning = [[0.0; LANES]; 6];
         for (n, &(at, (score, information))) in some.iter().enumerate() {
-            let ((cosine, sine), turn) = (angle(at * frequency), angle(at * step));
+            let by = turns.get(LANES * first + n).copied().unwrap_or_default();
+            let ((cosine, sine), turn) = (angle(at * frequency + by), angle(at * step));
             let of = [score, information, cosine, sine, turn.0, turn.1];
             lanes.iter_mut().zip(of).for_each(|(lanes, of)| lanes[n] = of);
         }
         lanes
     };
-    let mut samples: Vec<Turning> = group.chunks(LANES).map(turning).collect();
+    let mut samples: Vec<Turning> = group.chunks(LANES).enumerate().map(turning).collect();
     let (score, information) =
         group.iter().fold((0.0, 0.0), |sums, (_, sum)| (sums.0 + sum.0, sums.1 + sum.1));
     for (number, power) in powers.iter_mut().enumerate() {

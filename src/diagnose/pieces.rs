@@ -170,8 +170,8 @@ const WITH_SIDES: [&str; 1] = ["lateral_motion"];
 /// A strength on the far side of off begins at so much of its usual size.
 const BARELY: f64 = -1e-9;
 
-/// Effects that differ from pixel to pixel, told from others only where nothing moves: what changes with the distance differs too.
-pub const OF_STILL_SCENES: [&str; 1] = ["response_decay"];
+/// Effects that differ from pixel to pixel, told from others only where the target is at one place: what changes with the distance differs too.
+pub const OF_ONE_PLACE: [&str; 1] = ["response_decay"];
 
 /// How exactly the forms of effects are known: so much of what they explain may be left.
 const APPROXIMATE: f64 = 0.04;
@@ -246,7 +246,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         .copied()
         .filter(|effect| {
             let is_seen = (data.grid.every == 1 || !OF_NEIGHBOURS.contains(&effect.name))
-                && (data.stands_still() || !OF_STILL_SCENES.contains(&effect.name));
+                && (data.stands_still() || !OF_ONE_PLACE.contains(&effect.name));
             effect.is_predicted() && is_seen && !included(effect)
         })
         .map(|effect| {

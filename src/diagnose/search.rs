@@ -21,6 +21,7 @@ use super::refined::refined;
 use super::simpler::Simpler;
 use super::tolerated::tolerated;
 use super::trust::Trust;
+use super::uneven::uneven;
 use std::collections::BTreeSet;
 
 const MOST_EFFECTS: usize = 4;
@@ -147,6 +148,7 @@ impl<'a> Search<'a> {
             let candidates = candidates(self.data, &self.baseline.series);
             exchange(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named);
         }
+        uneven(self.data, self.noise, &mut self.current, &mut self.named);
         drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
         let Self { data, noise, baseline, current, mut named, .. } = self;

@@ -1,14 +1,19 @@
 //! Whether a flicker has one source: a lamp flickers equally in all recordings, and with nearly the same frequency.
 
+use super::amplitudes::agree;
 use super::columns::Column;
 use super::fit::Fit;
 use super::lamps::{FLICKER, MAINS_OFF};
-use super::lines::agree;
+use super::lines::{FrameSeen, Series};
 use super::pieces::Piece;
 use nalgebra::DMatrix;
+use std::f64::consts::TAU;
 
 /// In standard deviations: where a line is weaker than this its frequency is noise.
 const SEEN: f64 = 4.0;
+
+/// Frames whose phases of a line, doubled, are as much alike see one of them.
+const ONE_PHASE: f64 = 0.9;
 
 /// What one recording shows of a line.
 #[derive(Debug, Clone, Copy)]
@@ -40,9 +45,26 @@ pub fn shown(fit: &Fit, inflation: f64) -> Vec<Shown> {
         let along: Vec<_> = own.filter_map(along).collect();
         let fitted = sigma_along(&fit.covariance, &along);
         let sigma = fit.series.blur(take)?.max(if fitted.is_finite() { fitted } else { 0.0 });
-        Some(Shown { take, hz, size: (size, sigma * inflation.sqrt()) })
+        // A part of it says how strong it is at least.
+        let part = if fit.series.sees_one_phase(take, hz) { size } else { 0.0 };
+        Some(Shown { take, hz, size: (size, part.hypot(sigma * inflation.sqrt())) })
     };
     fit.pieces.iter().enumerate().filter(|(_, piece)| flickers(piece)).filter_map(of).collect()
+}
+
+impl Series {
+    /// Whether the frames of recording `take` see a line of `frequency_hz` at one phase, and half a turn from there, only, as frames every 25 ms see 100 Hz: what
+    /// they see of it is a part that depends on when the recording began.
+    pub fn sees_one_phase(&self, take: usize, frequency_hz: f64) -> bool {
+        let of_take = self.frames.iter().filter(|frame| frame.take == take);
+        let add = |(c, s, all): (f64, f64, f64), frame: &FrameSeen| {
+            let (sine, cosine) = (2.0 * TAU * (frequency_hz * frame.time_s).fract()).sin_cos();
+            let weight = frame.ambient.1;
+            (c + weight * cosine, s + weight * sine, all + weight)
+        };
+        let (c, s, all) = of_take.fold((0.0, 0.0, 0.0), add);
+        c.hypot(s) > ONE_PHASE * all
+    }
 }
 
 /// Standard deviation in a direction, which has so much of each column.
@@ -97,5 +119,19 @@ mod tests {
         // What is not seen has no frequency.
         assert!(is_one(&shown(&[(100.02, 0.45), (103.0, 0.3)])));
         assert!(is_one(&shown(&[])) && is_one(&shown(&[(100.0, 5.0)])));
+    }
+
+    #[test]
+    fn frames_every_25_ms_see_a_hundred_hertz_at_one_phase() {
+        let frame = |n: usize| FrameSeen {
+            time_s: 0.003 + 0.025 * (n % 4 + 11 * (n / 4)) as f64,
+            ambient: (0.0, 1.0),
+            ..FrameSeen::default()
+        };
+        let series = Series { frames: (0..160).map(frame).collect(), ..Series::default() };
+        assert!(series.sees_one_phase(0, 100.0) && series.sees_one_phase(0, 100.002));
+        assert!(!series.sees_one_phase(0, 100.1) && !series.sees_one_phase(0, 103.0));
+        // What nobody saw has no phase.
+        assert!(!series.sees_one_phase(1, 100.0));
     }
 }

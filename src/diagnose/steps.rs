@@ -1,12 +1,12 @@
-//! A step over the signal that was taken for a wave over the codes: a converter's stage, or a pixel that takes ambient light away, switches at one level.
+//! A step over the signal that was taken for a wave over the codes, or for that and a response beside it: a converter's stage, or a pixel that takes ambient light away, switches at one level.
 
 use super::acting::Acting;
-use super::columns::{Frame, Tangents};
+use super::columns::{Column, Frame, Tangents};
 use super::data::Data;
 use super::evidence::VISIBLE;
 use super::gram::Gram;
 use super::noise::Noise;
-use super::overtones::{OF_CODES, PARTS};
+use super::overtones::OF_CODES;
 use super::search::Found;
 use nalgebra::{DMatrix, DVector};
 
@@ -16,11 +16,14 @@ const LEVELS: usize = 64;
 /// Of what the wave explains, it says less than this share beside a step that was taken for it.
 const BESIDE: f64 = 0.25;
 
-/// The level, DN above the pedestal, near which a step explains as much as the wave over the codes that was `found`, and most of what that does, beside
+/// What is a curve over the signal: a wave, and a response that bends it.
+pub const CURVES: [&str; 2] = [OF_CODES, "intensity_nonlinearity"];
+
+/// The level, DN above the pedestal, near which a step explains as much as the curve over the signal that was `found`, and most of what that does, beside
 /// all else that was.
 pub fn step(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
     let fit = &found.fit;
-    let piece = fit.pieces.iter().position(|piece| piece.effect.name == OF_CODES)?;
+    let is_curve = |piece: usize| CURVES.contains(&fit.pieces[piece].effect.name);
     let level_dn = |level: usize| {
         let place = (level as f64 + 0.5) / LEVELS as f64;
         place * place * fit.pixels.full_scale_dn
@@ -37,13 +40,18 @@ pub fn step(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
     let (gram, ()) =
         Gram::with_blocks(data, &tangents, noise, &|_| true, &[LEVELS], &fill, &|(), _| (), &|(), ()| ());
     let mut projected = gram.project(Some(fit.jitter_m2));
-    let is_wave = |column: &usize| fit.columns[*column].piece == piece;
+    let is_wave = |column: &usize| is_curve(fit.columns[*column].piece);
     projected.give_way((0..fit.columns.len()).filter(|column| !is_wave(column)));
-    // As large as the wave is, by parts.
-    let parts: Vec<usize> = (0..fit.columns.len())
-        .filter(|column| is_wave(column) && PARTS.contains(&fit.columns[*column].parameter))
-        .collect();
-    let of = |&column: &usize| fit.pieces[piece].values[fit.columns[column].parameter];
+    // As large as the curve is, by parts: its strengths.
+    let is_part = |column: &usize| {
+        let Column { piece, parameter } = fit.columns[*column];
+        is_wave(column) && !fit.pieces[piece].effect.parameters[parameter].is_shape()
+    };
+    let parts: Vec<usize> = (0..fit.columns.len()).filter(is_part).collect();
+    let of = |&column: &usize| {
+        let Column { piece, parameter } = fit.columns[column];
+        fit.pieces[piece].values[parameter] - fit.pieces[piece].effect.parameters[parameter].off
+    };
     let wave = DVector::from_iterator(parts.len(), parts.iter().map(of));
     let steps: Vec<usize> = (0..LEVELS).map(|level| fit.columns.len() + level).collect();
     let (information, score) = (&projected.matrix, &projected.vector);

@@ -1,9 +1,10 @@
 //! Swings: what whole sets share and comes and goes with a period in time, as a thermostat makes it. Functions of the time are too coarse for more
 //! than a few periods, and errors of single sets say little of them.
 
+use super::amplitudes::agree;
 use super::clusters::MODES;
 use super::evidence::Greatest;
-use super::lines::{agree, blur, strongest};
+use super::lines::{blur, strongest};
 use super::periodogram::{FINENESS, Sum, chi2, power};
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,6 +1,7 @@
-//! The answer as other programs read it: `vuris-verdict/1`.
+//! A diagnosis, from the recordings to the answer.
 
 use super::alone::Alone;
+use super::answer::{Answer, Invisible, LocatedRow, NextRecording, Remainder, Smallest};
 use super::backgrounds::counts_at_hz;
 use super::bounds::is_bounded;
 use super::conclusion::Verdict;
@@ -17,16 +18,16 @@ use super::next::next;
 use super::noise::Noise;
 use super::noise::measured;
 use super::pass::THRESHOLD;
-use super::pieces::{OF_NEIGHBOURS, OF_STILL_SCENES};
+use super::pieces::{OF_NEIGHBOURS, OF_ONE_PLACE};
 use super::power_at_random::detectable_at_random;
 use super::random::JITTERS;
+use super::ruled_out::ruled_out;
 use super::search::{Found, Named};
 use super::settle::with_mask;
 use super::stated_noise;
 use crate::frames::Geometry;
 use crate::physics::effects::FIXED_POINT;
-use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// A diagnosis: the judgement, and how it fares on sets that it has not seen.
 #[derive(Debug)]
@@ -43,104 +44,6 @@ pub struct Diagnosis {
     pub answer: Answer,
     /// The pixels that were looked at, as a sensor of their own.
     pub geometry: Geometry,
-}
-
-/// The answer, in the order of its file.
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct Answer {
-    pub format: &'static str,
-    pub verdict: &'static str,
-    pub probability_of_mismatch: f64,
-    pub located: Vec<LocatedRow>,
-    pub effects: Vec<EffectRow>,
-    pub ruled_out: Vec<RuledOut>,
-    pub held_out: HeldOutRow,
-    pub remainder: Remainder,
-    pub next_recording: Vec<NextRecording>,
-    pub invisible: Vec<Invisible>,
-    pub smallest_detectable: Vec<Smallest>,
-    pub provenance: Value,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct LocatedRow {
-    pub coordinate: &'static str,
-    pub recording: String,
-    pub shape: String,
-    pub p: f64,
-    pub rms_dn: f64,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct EffectRow {
-    pub name: &'static str,
-    pub sentence: String,
-    pub probability: f64,
-    pub alias_risk: f64,
-    pub also_possible: Vec<String>,
-    pub parameters: Vec<ParameterRow>,
-    pub evidence: EvidenceRow,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct ParameterRow {
-    pub name: String,
-    pub value: f64,
-    pub sigma: f64,
-    pub unit: &'static str,
-    pub at_bound: bool,
-}
-
-#[derive(Debug, Clone, Copy, Serialize)]
-#[allow(missing_docs)]
-pub struct EvidenceRow {
-    pub delta_chi2: f64,
-    pub degrees_of_freedom: usize,
-    pub ln_bayes_factor: f64,
-    pub detectability_rho: f64,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct RuledOut {
-    pub name: &'static str,
-    pub by: String,
-    pub share: f64,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct Remainder {
-    pub share: f64,
-    pub coordinate: Option<&'static str>,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct NextRecording {
-    pub to_separate: Vec<String>,
-    pub what: String,
-    pub expected_rho: f64,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct Invisible {
-    pub name: &'static str,
-    pub why: String,
-}
-
-#[derive(Debug, Clone, Serialize)]
-#[allow(missing_docs)]
-pub struct Smallest {
-    pub name: &'static str,
-    pub parameter: &'static str,
-    pub value: f64,
-    pub unit: &'static str,
 }
 
 impl Remainder {
@@ -192,7 +95,9 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     }
     let data = fewer.as_ref().unwrap_or(data);
     let held_out = held_out(data, judgement.without(), judgement.with());
-    let is_more = held_out.after.chi2_per_dof > EXPLAINED || is_bounded(&judgement.fit);
+    // What is predicted is predicted better.
+    let is_no_better = !judgement.fit.pieces.is_empty() && held_out.sets > 0 && held_out.z < BETTER;
+    let is_more = held_out.after.chi2_per_dof > EXPLAINED || is_no_better || is_bounded(&judgement.fit);
     if judgement.verdict == Verdict::Explained && is_more {
         judgement.verdict = Verdict::PartlyExplained;
     }
@@ -209,6 +114,8 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
 
 /// Sets that were not seen are explained where they have no more chi squared a sample: noise alone has 1.
 const EXPLAINED: f64 = 2.0;
+/// They are explained better where the likelihood improves by so many times its scatter.
+const BETTER: f64 = 2.0;
 
 /// Sets that were not seen have no less chi squared a sample, where the noise is what the camera states.
 const LEAST_CHI2: f64 = 0.9;
@@ -320,7 +227,7 @@ fn invisible(data: &Data, found: &Found, at_random: &[(&'static str, Option<f64>
     let absorbed = "on these recordings it changes nothing that the pixels' own amplitude, phase, constant and ambient light do not absorb";
     let mut invisible = rows(&found.invisible, absorbed);
     if !data.stands_still() {
-        invisible.extend(rows(&OF_STILL_SCENES, "it is looked for where nothing moves alone: here, light that follows the rail says nearly the same"));
+        invisible.extend(rows(&OF_ONE_PLACE, "it is looked for only where the target is at one place: here, light that follows the rail says nearly the same"));
     }
     let unseen: Vec<&str> = at_random.iter().filter(|row| row.1.is_none()).map(|row| row.0).collect();
     invisible.extend(rows(&unseen, "no frame shows it, or too few do"));
@@ -344,34 +251,7 @@ fn located(data: &Data, judgement: &Judgement, place: &Place) -> LocatedRow {
     }
 }
 
-fn rounded(value: f64) -> f64 {
+/// To as many digits as are worth reading.
+pub fn rounded(value: f64) -> f64 {
     format!("{value:.4e}").parse().unwrap_or(value)
-}
-
-/// Every other candidate, and what speaks against it; what comes nearest first. A share is that of all that is explained, or that stands out.
-fn ruled_out(judgement: &Judgement) -> Vec<RuledOut> {
-    let Judgement { found, named, verdict, .. } = judgement;
-    let best = found.alone.iter().map(|alone| alone.chi2).fold(0.0, f64::max);
-    let explained = found.baseline.counted() - judgement.fit.counted();
-    let places = judgement.places.iter().map(|place| place.chi2.0);
-    let all = places.fold(best.max(explained), f64::max).max(1.0);
-    let others = found.alone.iter().filter(|alone| {
-        !named
-            .iter()
-            .any(|named| named.name == alone.name || named.rivals.iter().any(|rival| rival == alone.name))
-    });
-    let mut rows: Vec<RuledOut> = others
-        .filter(|alone| !found.invisible.contains(&alone.name))
-        .map(|&Alone { name, chi2, degrees, ln_bayes }| {
-            let share = if *verdict == Verdict::Clean || ln_bayes < 0.0 { 0.0 } else { chi2 / all };
-            let plural = if degrees == 1 { "" } else { "s" };
-            let by = match share > 0.0 {
-                false => format!("no trace: chi squared {chi2:.1} for {degrees} number{plural}"),
-                true => format!("alone it takes {:.0} % of it, and leaves the rest", (100.0 * share).floor()),
-            };
-            RuledOut { name, by, share: rounded(share) }
-        })
-        .collect();
-    rows.sort_by(|one, other| other.share.total_cmp(&one.share));
-    rows
 }

@@ -1,0 +1,83 @@
+//! Beats: modulated light that is not the camera's own, and so is a line in time whose phase follows the phase steps.
+
+use super::lamps::MAINS_OFF;
+use super::lines::{CLEARLY_MORE, Line, Series, most_between};
+use super::periodogram::{ANY, Scan, greatest};
+
+impl Series {
+    /// The strongest beat, Hz: its phase goes with the phase that is commanded, it has a beginning of its own in every recording, and any
+    /// frequency that frames see as one of its own, whichever of both lights is ahead.
+    pub fn beat(&self) -> Option<Line> {
+        let takes = self.by_take();
+        let of_take = |take: usize| {
+            let frames = self.frames.iter().filter(|frame| frame.take == take);
+            frames.map(|frame| -frame.turns).collect()
+        };
+        let turns: Vec<Vec<f64>> = (0..takes.len()).map(of_take).collect();
+        let most_hz = 0.5 / self.frame_period_s;
+        let is_some = most_hz.is_finite() && most_hz > 0.0;
+        let scan = is_some.then(|| Scan::turned(&takes, &turns, (-most_hz, most_hz), ANY)).flatten()?;
+        let best = greatest(&scan.powers);
+        Some(Line {
+            frequency: scan.low + best as f64 * scan.step,
+            chi2: *scan.powers.get(best)?,
+            looked: scan.powers.len() as f64,
+        })
+    }
+
+    /// The strongest beat, Hz, if it explains clearly more than a line of the ambient light that is near `frequency_hz`; noise has `inflation` times the variance
+    /// that was stated.
+    pub fn beats_more(&self, frequency_hz: f64, inflation: f64) -> Option<Line> {
+        let ends = (frequency_hz * (1.0 - MAINS_OFF), frequency_hz * (1.0 + MAINS_OFF));
+        // The mains wander from recording to recording.
+        let of_take = |take: &Vec<_>| most_between(std::slice::from_ref(take), ends, self.frame_period_s);
+        let of_line: f64 = self.by_take().iter().map(of_take).sum();
+        self.beat().filter(|beat| beat.chi2 > of_line + CLEARLY_MORE * inflation.max(1.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::lines::FrameSeen;
+    use crate::physics::Draws;
+    use std::f64::consts::TAU;
+
+    const PERIOD_S: f64 = 0.025;
+
+    /// Sets of four and of five frames, those of the second recording with another phase offset each, which see a `line`, by time and commanded turns.
+    fn series(line: &dyn Fn(f64, f64) -> f64) -> Series {
+        let mut series = Series { frame_period_s: PERIOD_S, ..Series::default() };
+        for (take, frames) in [(0, 4), (1, 5)] {
+            let noise = Draws::of(take as u64, 3).normal(60 * frames);
+            for (number, noise) in noise.into_iter().enumerate() {
+                let (set, frame) = (number / frames, number % frames);
+                let time_s = PERIOD_S * (frame + 11 * set) as f64;
+                let turns = frame as f64 / frames as f64 + take as f64 * set as f64 / 64.0;
+                let ambient = (line(time_s, turns) + noise, 1.0);
+                series.frames.push(FrameSeen { take, time_s, turns, ambient });
+            }
+        }
+        series
+    }
+
+    /// Of a beat whichever light is ahead nearly all is explained, of a lamp much less.
+    #[test]
+    fn a_beat_follows_the_phase_steps_and_a_lamp_does_not() {
+        let of = |line: &dyn Fn(f64, f64) -> f64| series(line).beat().map_or(0.0, |beat| beat.chi2);
+        let beat = |hz: f64| of(&move |time_s, turns| (TAU * (turns - hz * time_s + 0.2)).cos());
+        let lamp = |time_s: f64, _: f64| (TAU * (100.3 * time_s + 0.2)).cos();
+        // 540 frames, half of a square each, and what noise adds.
+        let all = 0.5 * 540.0;
+        for hz in [0.7, -1.3, 9.0] {
+            assert!(beat(hz) > 0.8 * all, "{hz} Hz: {}", beat(hz));
+        }
+        assert!(of(&lamp) < 0.6 * all, "{}", of(&lamp));
+        assert!(of(&|_, _| 0.0) < 60.0);
+        assert!(Series::default().beat().is_none());
+        // Whatever a lamp explains, a beat explains no more; and the other way round.
+        assert!(series(&lamp).beats_more(100.3, 1.0).is_none());
+        let seen = series(&|time_s, turns| (TAU * (turns - 0.7 * time_s + 0.2)).cos()).beats_more(100.3, 1.0);
+        assert!(seen.is_some_and(|beat| (beat.frequency - 0.7).abs() < 0.02), "{seen:?}");
+    }
+}
