@@ -1,5 +1,7 @@
 //! What the tests of `vuris diagnose` share: the program run, its verdict on a campaign, the names in it.
 
+mod form;
+
 use assert_cmd::Command;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -25,11 +27,13 @@ pub fn concealed<'a>(effects: &[&'a str]) -> Vec<&'a str> {
     effects.iter().flat_map(|effect| ["--effect", effect]).collect()
 }
 
-/// What is said of `campaign`.
+/// What is said of `campaign`, in the form that other programs read.
 pub fn verdict(campaign: &Path) -> Value {
     let (good, text) = vuris(&["diagnose", campaign.to_str().unwrap(), "--json", "-"]);
     assert!(good, "{text}");
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
+    let verdict = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+    form::check(&verdict);
+    verdict
 }
 
 /// Value and standard deviation of a parameter of an effect that is asserted. Not every test asks for one.

@@ -5,6 +5,7 @@ mod left_out;
 mod page;
 mod paragraph;
 mod proposed;
+mod remarks;
 mod text;
 
 pub use page::diagnosis_page;

@@ -1,9 +1,9 @@
 //! A diagnosis as a page that needs nothing else: the verdict, maps and curves before and after, the evidence.
 
 use super::curves::curve;
-use super::left_out::sentences;
-use super::paragraph::{chance, paragraph};
+use super::paragraph::{chance, counted, paragraph};
 use super::proposed::to_separate;
+use super::remarks::{remarks, risk};
 use super::text::probability;
 use crate::diagnose::{Agreement, Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
@@ -31,7 +31,8 @@ struct Page<'a> {
     maps: Vec<(&'a str, String)>,
     scale: String,
     curves: Vec<String>,
-    left_out: Vec<String>,
+    remarks: Vec<String>,
+    sets: String,
     remainder: String,
     provenance: String,
 }
@@ -41,6 +42,7 @@ struct Section {
     probability: String,
     sentence: String,
     also: String,
+    risk: String,
     parameters: Vec<Row>,
 }
 
@@ -83,6 +85,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
                 probability: chance(effect.probability),
                 sentence: effect.sentence.clone(),
                 also: effect.also_possible.join(", "),
+                risk: risk(effect).unwrap_or_default(),
                 parameters: effect
                     .parameters
                     .iter()
@@ -124,6 +127,11 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
             ],
             vec!["raw frames, DN RMS".to_owned(), shown(held.rms_dn_before, 4), shown(held.rms_dn_after, 4)],
             vec![
+                "means of frames, DN RMS".to_owned(),
+                shown(held.frame_mean_rms_dn_before, 4),
+                shown(held.frame_mean_rms_dn_after, 4),
+            ],
+            vec![
                 "distance of a set, mm RMS".to_owned(),
                 shown(1e3 * held.distance_rms_m_before, 3),
                 shown(1e3 * held.distance_rms_m_after, 3),
@@ -150,7 +158,15 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
         maps: vec![("before", map(before)), ("after", map(after))],
         scale: format!("{limit:.2}"),
         curves: before.curves.iter().zip(&after.curves).map(|(before, after)| curve(before, after)).collect(),
-        left_out: sentences(&diagnosis.left_out),
+        remarks: remarks(diagnosis),
+        sets: match held.sets {
+            0 => "Of these steps no frame is told by the others: nothing can be held out.".to_owned(),
+            sets => format!(
+                "{}; the likelihood improves by {:.1} times its scatter.",
+                counted(sets, "set"),
+                held.z
+            ),
+        },
         remainder: match answer.remainder.coordinate {
             Some(coordinate) => format!(
                 "{:.2} % of the mismatch is left, most of it over {coordinate}.",

@@ -85,22 +85,26 @@ fn evidence(answer: &Answer) -> String {
 
 /// What comes nearest and is not it, and how many others there are.
 fn ruled_out(answer: &Answer) -> String {
-    let near: Vec<&RuledOut> = answer.ruled_out.iter().filter(|row| row.share >= NEAR).take(TOLD).collect();
+    let (refused, others): (Vec<&RuledOut>, Vec<&RuledOut>) =
+        answer.ruled_out.iter().partition(|row| row.is_refused);
+    let near: Vec<&RuledOut> = others.iter().copied().filter(|row| row.share >= NEAR).take(TOLD).collect();
     let shares = near.iter().map(|row| (100.0 * row.share).floor().min(99.0)).enumerate();
     let percent = |(number, share): (usize, f64)| match number {
         0 => format!("{} (takes {share:.0} %)", near[number].name),
         _ => format!("{} ({share:.0} %)", near[number].name),
     };
     let names: Vec<String> = shares.map(percent).collect();
-    let others = match answer.ruled_out.len() - near.len() {
+    let others = match others.len() - near.len() {
         0 => String::new(),
         1 => "; one other takes less, or nothing".to_owned(),
         count => format!("; {count} others take less, or nothing"),
     };
-    match names.is_empty() {
+    let ruled_out = match names.is_empty() {
         true => String::new(),
         false => format!(" Ruled out, since each alone leaves the rest of it: {}{others}.", listed(&names)),
-    }
+    };
+    let of = |row: &&RuledOut| format!(" Not believed: {}; {}.", row.name, row.by);
+    refused.iter().map(of).chain([ruled_out]).collect()
 }
 
 /// A probability of something that may be so; none is said to be certain, or impossible.

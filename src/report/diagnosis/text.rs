@@ -1,16 +1,14 @@
 //! A diagnosis in a screenful.
 
-use super::left_out::sentences;
 use super::paragraph::{chance, counted, paragraph};
 use super::proposed::to_separate;
+use super::remarks::{remarks, risk, would_show};
 use crate::diagnose::{Agreement, Diagnosis, HeldOut, HeldOutRow};
 use std::fmt::Write;
 use std::path::Path;
 
 /// Lines that a list may take.
 const MOST: usize = 4;
-/// Of names that are as sure as this nothing is said.
-const RISK: f64 = 0.02;
 
 /// A probability; of those that are less than numbers know, a bound.
 pub fn probability(p: f64) -> String {
@@ -58,23 +56,12 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
         if !effect.also_possible.is_empty() {
             let _ = writeln!(text, "  cannot be told apart here from {}", effect.also_possible.join(", "));
         }
-        if effect.alias_risk > RISK {
-            let percent = 100.0 * effect.alias_risk;
-            let _ = writeln!(text, "  weak: with {percent:.0} % it is something unknown that looks like it");
+        if let Some(risk) = risk(effect) {
+            let _ = writeln!(text, "  {risk}");
         }
     }
-    if let Some(shared) = &diagnosis.judgement.shared_noise {
-        let _ =
-            writeln!(text, "Noise beside what the camera states: {shared}. No physics is left out by that.");
-    }
-    for words in &diagnosis.overstated {
-        let _ = writeln!(
-            text,
-            "The camera states more than there is of {words}. What is weaker than it states is not seen."
-        );
-    }
-    for sentence in sentences(&diagnosis.left_out) {
-        let _ = writeln!(text, "Left out: {sentence}");
+    for remark in remarks(diagnosis) {
+        let _ = writeln!(text, "{remark}");
     }
     text += &of_held_out(&answer.held_out);
     text += &of_schemes(&diagnosis.held_out);
@@ -88,6 +75,9 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
     if !answer.invisible.is_empty() {
         let names: Vec<&str> = answer.invisible.iter().map(|row| row.name).collect();
         let _ = writeln!(text, "These recordings cannot show: {}", names.join(", "));
+    }
+    if let Some(would_show) = would_show(answer) {
+        let _ = writeln!(text, "{would_show}");
     }
     text
 }
