@@ -106,7 +106,9 @@ impl Make {
             .unwrap_or_else(|| out.with_file_name(format!("{}-labels.json", name.to_string_lossy())));
         for path in [out, &labels_file] {
             if path.symlink_metadata().is_ok() {
-                return Err(Problem::in_file(path, "is there already").expected("a new challenge"));
+                return Err(Problem::in_file(path, "is there already")
+                    .expected("a new challenge")
+                    .remedy("name another --out or --labels, or remove it"));
             }
         }
         if at(&labels_file).starts_with(at(out)) {
@@ -204,7 +206,9 @@ impl Answers {
         if let Some(first) = failures.first() {
             let others =
                 format!("{} of {} were not answered; the first: {first}", failures.len(), seals.len());
-            return Err(Problem::in_file(&self.folder, others));
+            return Err(Problem::in_file(&self.folder, others)
+                .expected("an answer to every campaign")
+                .remedy("run it again: what is answered stays"));
         }
         say!("{} answered, {} of them now", counted(seals.len(), "campaign"), open.len());
         Ok(ExitCode::SUCCESS)

@@ -53,8 +53,9 @@ impl Study {
     pub fn cases(&self) -> Result<Vec<Case>> {
         let mut seed = self.seed;
         let mut next = || {
-            seed += 1;
-            seed
+            let this = seed;
+            seed = seed.wrapping_add(1);
+            this
         };
         let mut cases: Vec<Case> = (0..self.nulls).map(|_| Case::clean(next())).collect();
         if self.repeats + self.pairs + self.unknowns == 0 {
