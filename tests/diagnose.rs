@@ -24,6 +24,17 @@ fn clean_campaigns_are_clean_and_say_what_they_would_have_shown() {
     for seed in ["1", "2", "3"] {
         let verdict = verdict(&campaign(folder.path(), seed, &[], seed));
         assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
+        // Of these recordings nothing that was held out is unknown.
+        for number in [
+            "chi2_per_dof_before",
+            "chi2_per_dof_after",
+            "rms_dn_before",
+            "rms_dn_after",
+            "distance_rms_m_before",
+            "distance_rms_m_after",
+        ] {
+            assert!(verdict["held_out"][number].is_number(), "{number}");
+        }
         let chi2 = verdict["held_out"]["chi2_per_dof_before"].as_f64().unwrap();
         assert!((chi2 - 1.0).abs() < 0.02, "{chi2}");
         // Of every effect the answer says what strength would have been seen, or why none; but for those that the camera includes.

@@ -150,3 +150,8 @@ pub struct Smallest {
     /// Its unit; `1` where it has none.
     pub unit: &'static str,
 }
+
+/// To as many digits as are worth reading.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
+}

@@ -48,8 +48,8 @@ pub struct Case<'a> {
 impl Case<'_> {
     /// The verdict.
     pub fn verdict(&self) -> Verdict {
-        let (of_random, is_random) = self.at_random;
-        let names = self.named.len() + of_random;
+        let is_random = self.at_random.1;
+        let names = self.names();
         let is_known = names > 0 && !self.is_misnamed;
         let may_leave = form_share(self.named);
         // What is left by a form that is not believed to be better than that is so in every coordinate alike.
@@ -67,9 +67,7 @@ impl Case<'_> {
             (true, false) => 0.1,
             (false, _) => 0.5,
         };
-        // What one unknown effect does several known ones together may imitate.
-        let are_many = self.is_described && names > MOST_NAMES;
-        if self.are_outvoted || are_many {
+        if self.are_outvoted || self.are_many() {
             Verdict::Unexplained
         } else if self.remainder == 0.0 {
             if names == 0 { Verdict::Clean } else { Verdict::Explained }
@@ -82,10 +80,20 @@ impl Case<'_> {
         }
     }
 
+    /// How many names there are, those of random effects among them.
+    fn names(&self) -> usize {
+        self.named.len() + self.at_random.0
+    }
+
+    /// Whether they are more than were left out: what one unknown effect does several known ones together may imitate.
+    fn are_many(&self) -> bool {
+        self.is_described && self.names() > MOST_NAMES
+    }
+
     /// What speaks against all names, in words, where none is asserted.
     pub fn against(&self) -> String {
-        let names = self.named.len() + self.at_random.0;
-        match (self.are_outvoted, self.is_described && names > MOST_NAMES) {
+        let names = self.names();
+        match (self.are_outvoted, self.are_many()) {
             (true, _) => "a coordinate alone says as much, with fewer assumptions".to_owned(),
             (false, true) => {
                 format!("one of {names} effects at once, which is how something unknown is taken apart")

@@ -137,7 +137,7 @@ impl Seen {
 
 /// Frequencies of lamps, Hz, that frames which are taken every so many seconds see as `frequency_hz`, and with which sign they go with it; twice the mains'
 /// only, if it is that.
-pub fn frequencies(frequency_hz: f64, period_s: f64) -> Vec<(f64, f64)> {
+fn frequencies(frequency_hz: f64, period_s: f64) -> Vec<(f64, f64)> {
     if period_s.is_nan() || period_s <= 0.0 {
         return Vec::new();
     }

@@ -1,10 +1,9 @@
 //! What is not asserted, and what speaks against it.
 
 use super::alone::Alone;
-use super::answer::RuledOut;
+use super::answer::{RuledOut, rounded};
 use super::conclusion::Verdict;
 use super::judge::Judgement;
-use super::verdict::rounded;
 
 /// Every other candidate, and what speaks against it; what comes nearest first. A share is that of all that is explained, or that stands out.
 pub fn ruled_out(judgement: &Judgement) -> Vec<RuledOut> {

@@ -1,7 +1,7 @@
 //! A diagnosis, from the recordings to the answer.
 
 use super::alone::Alone;
-use super::answer::{Answer, Invisible, LocatedRow, NextRecording, Remainder, Smallest};
+use super::answer::{Answer, Invisible, LocatedRow, NextRecording, Remainder, Smallest, rounded};
 use super::backgrounds::counts_at_hz;
 use super::bounds::is_bounded;
 use super::conclusion::Verdict;
@@ -227,7 +227,7 @@ fn invisible(data: &Data, found: &Found, at_random: &[(&'static str, Option<f64>
     let absorbed = "on these recordings it changes nothing that the pixels' own amplitude, phase, constant and ambient light do not absorb";
     let mut invisible = rows(&found.invisible, absorbed);
     if !data.stands_still() {
-        invisible.extend(rows(&OF_ONE_PLACE, "it is looked for only where the target is at one place: here, light that follows the rail says nearly the same"));
+        invisible.extend(rows(&OF_ONE_PLACE, "where the target moves, light that follows the rail says nearly the same: it is looked for only in the place of a drift that was named"));
     }
     let unseen: Vec<&str> = at_random.iter().filter(|row| row.1.is_none()).map(|row| row.0).collect();
     invisible.extend(rows(&unseen, "no frame shows it, or too few do"));
@@ -249,9 +249,4 @@ fn located(data: &Data, judgement: &Judgement, place: &Place) -> LocatedRow {
         p: (place.looked * tail(chi2, columns)).min(1.0),
         rms_dn: rounded(((chi2 - columns as f64).max(0.0) / samples * variance).sqrt()),
     }
-}
-
-/// To as many digits as are worth reading.
-pub fn rounded(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
 }

@@ -38,6 +38,8 @@ const FIELDS: [&str; 12] = [
 enum Kind {
     Text,
     Coordinate,
+    /// A coordinate, or null where nothing stands out.
+    Left,
     Share,
     Finite,
     NotNegative,
@@ -49,7 +51,7 @@ enum Kind {
     List,
     Object,
 }
-use Kind::{Coordinate, Count, Finite, Known, List, NotNegative, Object, Share, Text, Texts, Truth};
+use Kind::{Coordinate, Count, Finite, Known, Left, List, NotNegative, Object, Share, Text, Texts, Truth};
 
 impl Kind {
     fn has(self, value: &Value) -> bool {
@@ -57,6 +59,7 @@ impl Kind {
         match self {
             Text => value.as_str().is_some_and(|text| !text.is_empty()),
             Coordinate => value.as_str().is_some_and(|text| COORDINATES.contains(&text)),
+            Left => value.is_null() || Coordinate.has(value),
             Share => (0.0..=1.0).contains(&number),
             Finite => number.is_finite(),
             NotNegative => number >= 0.0,
@@ -121,6 +124,8 @@ const HELD_OUT: &[(&str, Kind)] = &[
     ("by_frames", List),
 ];
 
+const REMAINDER: &[(&str, Kind)] = &[("share", Share), ("coordinate", Left)];
+
 fn check_row(what: &str, row: &Value, fields: &[(&str, Kind)]) {
     let known: Vec<&str> = fields.iter().map(|field| field.0).collect();
     let has: Vec<&String> = row.as_object().unwrap_or_else(|| panic!("{what}: {row}")).keys().collect();
@@ -151,13 +156,7 @@ pub fn check(verdict: &Value) {
         check_row("evidence", &effect["evidence"], EVIDENCE);
     }
     check_row("held_out", &verdict["held_out"], HELD_OUT);
-    check_row(
-        "remainder",
-        &serde_json::json!({ "share": verdict["remainder"]["share"] }),
-        &[("share", Share)],
-    );
-    let left = &verdict["remainder"]["coordinate"];
-    assert!(left.is_null() || Coordinate.has(left), "{left}");
+    check_row("remainder", &verdict["remainder"], REMAINDER);
     assert!(verdict["provenance"].is_object());
     // A clean answer has neither place nor name, an unexplained one no name, and the others have names.
     let located = verdict["located"].as_array().expect("checked above");

@@ -3,7 +3,7 @@
 use super::curves::curve;
 use super::paragraph::{chance, counted, paragraph};
 use super::proposed::to_separate;
-use super::remarks::{remarks, risk};
+use super::remarks::{NOTHING_HELD_OUT, remarks, risk};
 use super::text::probability;
 use crate::diagnose::{Agreement, Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
@@ -160,7 +160,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
         curves: before.curves.iter().zip(&after.curves).map(|(before, after)| curve(before, after)).collect(),
         remarks: remarks(diagnosis),
         sets: match held.sets {
-            0 => "Of these steps no frame is told by the others: nothing can be held out.".to_owned(),
+            0 => NOTHING_HELD_OUT.to_owned(),
             sets => format!(
                 "{}; the likelihood improves by {:.1} times its scatter.",
                 counted(sets, "set"),

@@ -4,9 +4,12 @@ use super::left_out::sentences;
 use crate::diagnose::{Answer, Diagnosis, EffectRow, Smallest};
 
 /// Of names that are as sure as this nothing is said.
-const RISK: f64 = 0.025;
+const RISK: f64 = 0.02;
 /// Of so many effects the smallest strengths are told.
 const SMALLEST: usize = 3;
+
+/// What is said where no set could be held out.
+pub const NOTHING_HELD_OUT: &str = "Of these steps no frame is told by the others: nothing can be held out.";
 
 /// What is not sure of a name.
 pub fn risk(effect: &EffectRow) -> Option<String> {

@@ -2,7 +2,7 @@
 
 use super::paragraph::{chance, counted, paragraph};
 use super::proposed::to_separate;
-use super::remarks::{remarks, risk, would_show};
+use super::remarks::{NOTHING_HELD_OUT, remarks, risk, would_show};
 use crate::diagnose::{Agreement, Diagnosis, HeldOut, HeldOutRow};
 use std::fmt::Write;
 use std::path::Path;
@@ -85,7 +85,7 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
 /// How the fit fares on what it has not seen.
 fn of_held_out(held: &HeldOutRow) -> String {
     if held.sets == 0 {
-        return "Of these steps no frame is told by the others: nothing can be held out.\n".to_owned();
+        return format!("{NOTHING_HELD_OUT}\n");
     }
     format!(
         "On {} that the fit has not seen: chi squared a sample {:.4} -> {:.4} (z {:.1}), raw frames {:.3} -> {:.3} DN RMS,\n  \
