@@ -409,3 +409,28 @@ fn a_strong_effect_hides_no_outliers() {
     let left_out: u64 = verdict["provenance"]["sets_left_out"].as_u64().unwrap();
     assert!((3..=5).contains(&left_out), "{verdict:#}");
 }
+
+/// Three sets in a row that are off are no outliers, as three of other times are: something lasted that long.
+#[test]
+fn sets_in_a_row_that_are_off_are_no_outliers() {
+    for (odd, word) in [([17, 40, 60], "clean"), ([40, 41, 42], "unexplained")] {
+        let folder = tempfile::tempdir().unwrap();
+        let campaign = campaign(folder.path(), "16x12", "four-motion,wdft-rail", &[]);
+        rewrite(&campaign, |sample| {
+            let is_odd = sample.recording == 0 && odd.contains(&sample.set);
+            with(sample, if is_odd { 50.0 * sample.frame as f64 } else { 0.0 })
+        });
+        let verdict = verdict(&campaign);
+        assert_eq!(verdict["verdict"], word, "{verdict:#}");
+        let left_out = &verdict["provenance"]["sets_left_out_of"]["four-motion"];
+        assert!(odd.iter().all(|set| left_out.as_array().unwrap().contains(&(*set).into())), "{verdict:#}");
+        let located = verdict["located"].as_array().unwrap();
+        assert_eq!(located.len(), usize::from(word != "clean"), "{verdict:#}");
+        for place in located {
+            let shape = place["shape"].as_str().unwrap();
+            assert_eq!(place["coordinate"], "time_s", "{verdict:#}");
+            assert!(shape.starts_with("sets 40 to 42, unlike"), "{verdict:#}");
+            assert_eq!(place["recording"], "four-motion", "{verdict:#}");
+        }
+    }
+}

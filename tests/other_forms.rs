@@ -206,32 +206,52 @@ fn codes_without_four_bits_are_explained() {
     assert_eq!(verdict["remainder"]["share"], 0.0, "{verdict:#}");
 }
 
-/// Nobody states how far the background is. At one frequency its pixels' own phases say it, and another frequency's are not asked.
-#[test]
-fn two_modulation_frequencies_are_clean_beside_a_background() {
+/// A simulated recording of 40 MHz beside others of 30 MHz, as `change` has it.
+fn at_two_frequencies(folder: &Path, effects: &[&str], change: impl Fn(&mut Recording)) -> PathBuf {
     const OTHER: &str = "four-motion";
-    let folder = tempfile::tempdir().unwrap();
     let at = |frequency_hz: &str, recordings: &str| {
         let own =
             ["--size", "16x12", "--seed", "31", "--recordings", recordings, "--frequency-hz", frequency_hz];
-        simulated(folder.path().join(frequency_hz), &own)
+        simulated(folder.join(frequency_hz), &[&own[..], &concealed(effects)].concat())
     };
     let campaign = at("30e6", "four-sweep,four-rail");
     let mut other = Recording::open(&at("40e6", OTHER).join(OTHER)).unwrap();
-    // The background is elsewhere than the simulator's: a quarter of a turn nearer, at this frequency.
-    let (pixels, frames) = (other.geometry().pixels(), other.raw.frames_per_set());
-    let codes = other.raw.codes();
-    let shifted = |at: usize| {
-        let (set, frame, pixel) = (at / pixels / frames, at / pixels % frames, at % pixels);
-        let seen = if other.sees_target(pixel) { frame } else { (frame + 1) % frames };
-        codes[(set * frames + seen) * pixels + pixel]
-    };
-    let codes: Vec<u32> = (0..codes.len()).map(shifted).collect();
-    assert!(codes != other.raw.codes());
-    other.raw = RawSets::new(other.geometry(), frames, codes).unwrap();
+    change(&mut other);
     other.camera = None;
     write_recording(&other, &campaign.join(OTHER)).unwrap();
+    campaign
+}
+
+/// Nobody states how far the background is. At one frequency its pixels' own phases say it, and another frequency's are not asked.
+#[test]
+fn two_modulation_frequencies_are_clean_beside_a_background() {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = at_two_frequencies(folder.path(), &[], |other| {
+        // The background is elsewhere than the simulator's: a quarter of a turn nearer, at this frequency.
+        let (pixels, frames) = (other.geometry().pixels(), other.raw.frames_per_set());
+        let codes = other.raw.codes();
+        let shifted = |at: usize| {
+            let (set, frame, pixel) = (at / pixels / frames, at / pixels % frames, at % pixels);
+            let seen = if other.sees_target(pixel) { frame } else { (frame + 1) % frames };
+            codes[(set * frames + seen) * pixels + pixel]
+        };
+        let codes: Vec<u32> = (0..codes.len()).map(shifted).collect();
+        assert!(codes != other.raw.codes());
+        other.raw = RawSets::new(other.geometry(), frames, codes).unwrap();
+    });
     let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
     assert_eq!(verdict["provenance"]["recordings"].as_array().unwrap().len(), 3, "{verdict:#}");
+}
+
+/// Where amplitudes are calibrated for emitters on one side, they change the phase alone; what that adds over the columns, two frequencies see: it is no skew.
+#[test]
+fn emitters_on_one_side_may_change_the_phase_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let effect = "illumination_baseline:middle_along_columns_m=0.25,of_phase_alone=1";
+    let verdict = verdict(&at_two_frequencies(folder.path(), &[effect], |_| {}));
+    assert_eq!(names(&verdict), ["illumination_baseline"], "{verdict:#}");
+    let (found, sigma) = parameter(&verdict, "middle_along_columns_m");
+    assert!((found - 0.25).abs() < 4.0 * sigma && sigma < 0.05, "{found} +- {sigma}");
+    assert_eq!(parameter(&verdict, "of_phase_alone").0, 1.0);
 }

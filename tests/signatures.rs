@@ -467,14 +467,19 @@ fn illumination_baseline(make: Make, findings: &mut Findings) {
     findings.about("light falls", lost("squared_baseline_of_light_m2"), 2.0 * ACTIVE / 101.0, 1e-9);
     findings.below("the phase alone", lost("squared_baseline_m2").abs(), 1e-9);
     // Two pixels that look 45 degrees to either side see 1.414 m away what is lit from 10 cm to the right, from 1.81 and 2.21 m^2 away instead of 2.
-    let frame = |frame: usize| {
-        let pixels = Pixels { obliquity: vec![SQRT_2; 2], ..row(&[A; 2]) };
-        frame_of(pixels, make("illumination_baseline", &[("middle_along_columns_m", 0.1)]), frame)
+    let light = |of_phase_alone: f64| {
+        let values = [("middle_along_columns_m", 0.1), ("of_phase_alone", of_phase_alone)];
+        let frame = |frame: usize| {
+            let pixels = Pixels { obliquity: vec![SQRT_2; 2], ..row(&[A; 2]) };
+            frame_of(pixels, make("illumination_baseline", &values), frame)
+        };
+        let [first, third] = [0, 2].map(frame);
+        [0, 1].map(|pixel| first[pixel] + third[pixel] - 2.0 * AMBIENT)
     };
-    let [first, third] = [0, 2].map(frame);
-    let light = [0, 1].map(|pixel| first[pixel] + third[pixel] - 2.0 * AMBIENT);
-    findings.about("the left side", light[0], ACTIVE * 2.0 / 2.21, 1e-9);
-    findings.about("the right side", light[1], ACTIVE * 2.0 / 1.81, 1e-9);
+    let [left, right] = light(0.0);
+    findings.about("the left side", left, ACTIVE * 2.0 / 2.21, 1e-9);
+    findings.about("the right side", right, ACTIVE * 2.0 / 1.81, 1e-9);
+    light(1.0).into_iter().for_each(|light| findings.about("calibrated light", light, ACTIVE, 1e-9));
 }
 
 fn lateral_motion(make: Make, findings: &mut Findings) {

@@ -5,6 +5,7 @@ use super::data::Data;
 use super::patterns::{Patterns, difference};
 use super::pieces::{Piece, active};
 use crate::bench::chain;
+use crate::frames::Geometry;
 use crate::physics::{Active, Chain, Exposure, Memory, Moment, PerPixel, Pixels, Place};
 use std::sync::Arc;
 
@@ -38,11 +39,20 @@ enum Change {
     More { effect: Active, step: f64, is_finite: bool },
 }
 
+/// How a frame differs by one of the pixels' own numbers.
+struct Own {
+    /// With that number of all pixels a step further; or, where much of a pixel's signal may be its neighbours', of every second one, as on a chessboard, and of the others.
+    chains: Vec<Chain>,
+    step: f64,
+    /// The last place before which it does not matter.
+    place: Place,
+}
+
 /// The chains of one recording: the base, and one for each difference from it.
 struct Chains {
     base: Chain,
-    /// By the pixels' own numbers, with the step, and the last place before which none of them matters.
-    own: [(Chain, f64, Place); OWN],
+    /// By the pixels' own numbers.
+    own: [Own; OWN],
     /// By what each column differs; nothing where it does not act.
     columns: Vec<Option<Change>>,
     /// Whether a column needs the frame before.
@@ -80,11 +90,24 @@ const POSITION_STEP_M: f64 = 1e-6;
 /// Steps of a pixel's own numbers, in their units.
 const OWN_STEPS: [f64; OWN] = [0.1, 1e-4, 0.1, 0.1];
 
-fn own_pixels(pixels: &Pixels, number: usize) -> (Pixels, f64) {
+/// `pixels` with own `number` a step further, where they are on one of these `squares` of the chessboard.
+fn own_pixels(pixels: &Pixels, number: usize, squares: &[usize]) -> Pixels {
     let (mut changed, step) = (pixels.clone(), OWN_STEPS[number]);
-    own_values_mut(&mut changed)[number].iter_mut().for_each(|value| *value += step);
-    (changed, step)
+    let is_there = |pixel: usize| squares.contains(&square(pixels.geometry, pixel));
+    let values = own_values_mut(&mut changed)[number].iter_mut().enumerate();
+    values.filter(|(pixel, _)| is_there(*pixel)).for_each(|(_, value)| *value += step);
+    changed
 }
+
+/// Whether a pixel is on a black or a white square of the chessboard: none of its neighbours in a row or column is on such a one.
+fn square(geometry: Geometry, pixel: usize) -> usize {
+    let (row, column) = geometry.row_column(pixel);
+    (row + column) % 2
+}
+
+/// Effects by which a good part of a pixel's signal may be its neighbours' in row and column. What its own numbers change is then not what it changes by when all pixels'
+/// numbers go a step further: a pixel at an edge would be said to follow its neighbour beyond it.
+const OF_BESIDE: [&str; 1] = ["mixed_pixels"];
 
 impl<'a> Tangents<'a> {
     /// The model of `data` with `pixels` and the effects `fitted`; columns for every free number of `fitted` and of `tried`, in this
@@ -105,10 +128,16 @@ impl<'a> Tangents<'a> {
                 effects.extend(data.takes[take].included.iter().cloned());
                 chain(&data.camera, pixels, effects)
             };
+            let included = &data.takes[take].included;
+            let is_of_beside = effects.iter().chain(included).any(|active| {
+                OF_BESIDE.contains(&active.effect.name) && active.values != active.effect.off()
+            });
+            let squares: &[&[usize]] = if is_of_beside { &[&[0], &[1]] } else { &[&[0, 1]] };
             let own = [0, 1, 2, 3].map(|number| {
-                let (changed, step) = own_pixels(pixels, number);
+                let of =
+                    |squares: &&[usize]| with(Arc::new(own_pixels(pixels, number, squares)), effects.clone());
                 let place = if number == 1 { Place::Clock } else { Place::Path };
-                (with(Arc::new(changed), effects.clone()), step, place)
+                Own { chains: squares.iter().map(of).collect(), step: OWN_STEPS[number], place }
             });
             let of = |column: &Column| {
                 let piece = fitted.iter().chain(tried).nth(column.piece)?;
@@ -201,15 +230,27 @@ impl<'a> Tangents<'a> {
         let ambient = chains.base.pixels.ambient_dn.clone();
         let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
         let position = difference(&expose(&chains.base, moved), &base, POSITION_STEP_M);
-        let of_own = |(chain, step, place): &(Chain, f64, Place)| {
+        let of_chain = |chain: &Chain, step: f64, place: Place| {
             // What was in the frame before depends on these numbers, too.
             if chain.looks_back() {
-                return difference(&expose(chain, moment), &base, *step);
+                return difference(&expose(chain, moment), &base, step);
             }
-            let mut exposure = stations[*place as usize].clone();
+            let mut exposure = stations[place as usize].clone();
             exposure.pixels = Arc::clone(&chain.pixels);
-            chain.resume(&mut exposure, *place);
-            difference(&exposure.signal_dn, &base, *step)
+            chain.resume(&mut exposure, place);
+            difference(&exposure.signal_dn, &base, step)
+        };
+        let geometry = chains.base.pixels.geometry;
+        let of_own = |own: &Own| {
+            let of = |chain: &Chain| of_chain(chain, own.step, own.place);
+            let mut changes: Vec<Vec<f64>> = own.chains.iter().map(of).collect();
+            if let [black, white] = &mut changes[..] {
+                let whites = black.iter_mut().zip(&*white).enumerate();
+                whites
+                    .filter(|(pixel, _)| square(geometry, *pixel) == 1)
+                    .for_each(|(_, (black, white))| *black = *white);
+            }
+            changes.swap_remove(0)
         };
         let own = chains.own.each_ref().map(of_own);
         let mut patterns = Patterns::new(&chains.base, &base, start, stations);
@@ -247,4 +288,41 @@ fn expose(chain: &Chain, moment: Moment, before: [Moment; 3], memory: Memory) ->
 fn begun(chain: &Chain, moment: Moment, before: [Moment; 3], memory: Memory) -> Exposure {
     let before = chain.looks_back().then(|| chain.remember(before, &[]));
     chain.begin(moment, Memory { before, ..memory })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::taken;
+    use crate::diagnose::finished::unfitted;
+    use crate::diagnose::stated_noise;
+
+    /// What a pixel's own numbers change is what changes there when they alone do, however much of what it sees is its neighbour's.
+    #[test]
+    fn a_pixel_at_an_edge_follows_its_own_numbers_alone() {
+        let size = Geometry { width: 8, height: 6 };
+        let recordings = taken(size, 2, &[], &["four-motion"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let pixels = unfitted(&data, stated_noise(&data)).pixels;
+        let mut mixed = Piece::off("mixed_pixels", &[0, 1], &[0]);
+        mixed.values[..2].copy_from_slice(&[0.5, 0.2]);
+        let pieces = [mixed];
+        let of = |pixels: &Arc<Pixels>| Tangents::new(&data, pixels, &pieces, &[]).0;
+        let (index, tangents) = (2, of(&pixels));
+        let frame = tangents.frame(0, index);
+        let mut looked_at = [0; 2];
+        for &(pixel, beyond) in &pixels.edges {
+            looked_at[usize::from(data.target[pixel])] += 1;
+            for (number, (own, step)) in frame.own.iter().zip(OWN_STEPS).enumerate() {
+                let mut changed = Pixels::clone(&pixels);
+                own_values_mut(&mut changed)[number][pixel] += step;
+                let changed = of(&Arc::new(changed)).base(0, index);
+                let (alone, found) = ((changed[pixel] - frame.base[pixel]) / step, own[pixel]);
+                assert!((found - alone).abs() < 1e-6 * (1.0 + alone.abs()), "{number}: {found}, {alone}");
+                // The neighbour beyond the edge follows it, too.
+                assert!(number == 3 || (changed[beyond] - frame.base[beyond]).abs() > 1e-6);
+            }
+        }
+        assert!(looked_at.into_iter().all(|edges| edges > 4), "{looked_at:?}");
+    }
 }

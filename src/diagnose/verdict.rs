@@ -93,6 +93,10 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
             (judgement, fewer, left_out) = (second, Some(beside), left);
         }
     }
+    // What lasts is no outlier: where nothing else is there, it is what the recordings show.
+    if judgement.verdict == Verdict::Clean && !left_out.lasting.is_empty() {
+        (judgement.verdict, judgement.places) = (Verdict::Unexplained, left_out.lasting.clone());
+    }
     let data = fewer.as_ref().unwrap_or(data);
     let held_out = held_out(data, judgement.without(), judgement.with());
     // What is predicted is predicted better.

@@ -9,7 +9,8 @@ use std::sync::Arc;
 /// Emitters all around the lens make the same, near the axis. Where amplitudes are not calibrated for it, light falls with the square of the way out, too: by
 /// `b² / d²`, for which there is a number of its own, and, where the emitters' middle is beside the lens along the columns and rows, by `2 b sin a / d`: the nearer
 /// the target is, the brighter is the side of the image on which they are. A surface is lit here as strongly from aside as from straight ahead, by emitters that shine
-/// everywhere alike: of a plane that faces the camera both are half as much again, and so is the length that is found.
+/// everywhere alike: of a plane that faces the camera both are half as much again, and so is the length that is found. Where amplitudes are calibrated, such emitters change
+/// the phase alone: at one modulation frequency what a pixel's direction adds is its own, at two it is not.
 pub static EFFECT: Effect = Effect {
     name: "illumination_baseline",
     sentence: "The light starts beside the lens (bistatic geometry): the way out is longer than the way back, the more the nearer \
@@ -18,8 +19,9 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("squared_baseline_m2", "m^2", 0.0, (0.0, 0.1), 2.5e-3),
         Parameter::strength("squared_baseline_of_light_m2", "m^2", 0.0, (0.0, 0.1), 2.5e-3).instead(),
-        Parameter::strength("middle_along_columns_m", "m", 0.0, (-0.3, 0.3), 0.02).instead(),
-        Parameter::strength("middle_along_rows_m", "m", 0.0, (-0.3, 0.3), 0.02).instead(),
+        Parameter::strength("middle_along_columns_m", "m", 0.0, (-0.5, 0.5), 0.02).instead(),
+        Parameter::strength("middle_along_rows_m", "m", 0.0, (-0.5, 0.5), 0.02).instead(),
+        Parameter::choice("of_phase_alone", "1", &[0.0, 1.0]),
     ],
     place: Place::Waveform,
     chance: Chance::None,
@@ -47,7 +49,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         let out_m = (squared_out_m2 + values[0]).max(0.0).sqrt();
         *phase += phase_rad((out_m - range_m) / 2.0, *frequency_hz);
     }
-    if of_light_m2 != 0.0 {
+    if of_light_m2 != 0.0 && values[4] < 0.5 {
         for light_dn in [amplitude_dn, constant_dn] {
             for ((light, range_m), squared_out_m2) in light_dn.iter_mut().zip(&*range_m).zip(&squared_out_m2)
             {
