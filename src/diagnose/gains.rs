@@ -1,5 +1,6 @@
 //! A drift that only tells recordings apart: what is constant within each is no drift.
 
+use super::columns::Column;
 use super::data::Data;
 use super::fit::{Fit, fit};
 use super::noise::Noise;
@@ -13,6 +14,9 @@ const BEFORE: &str = "relative_before";
 const WITHIN_NATS: f64 = 8.0;
 /// And so much of what all of it explains.
 const WITHIN: f64 = 0.1;
+/// Where recordings are at two levels, so little of what tells them apart is left by these. A drift that goes on from one recording to the next has as many levels as there are
+/// recordings.
+const LEFT_BY_TWO: f64 = 0.1;
 /// Why it is not believed.
 pub const WHY: &str =
     "what it says is constant within each recording: gains of whole recordings, and no drift";
@@ -37,7 +41,32 @@ pub fn gain_of_recordings(data: &Data, found: &Found, noise: Noise) -> Option<&'
     let pieces = [found.fit.pieces_without(DRIFT), constants].concat();
     let without: Fit = fit(data, Some(&found.fit), pieces, noise, &|_| true);
     let within = 0.5 * (without.left() - found.fit.left());
-    (within < WITHIN_NATS || within < WITHIN * 0.5 * named.score.0).then_some(DRIFT)
+    let is_constant = within < WITHIN_NATS || within < WITHIN * 0.5 * named.score.0;
+    // Shapes are fitted beside strengths.
+    let is_level = |column: &Column| {
+        let effect = without.pieces[column.piece].effect;
+        effect.name == DRIFT && effect.parameters[column.parameter].name == BEFORE
+    };
+    let of = |(number, column): (usize, &Column)| {
+        let value = without.pieces[column.piece].values[column.parameter];
+        (value, without.sigma(number).max(f64::MIN_POSITIVE).powi(-2))
+    };
+    let levels = without.columns.iter().enumerate().filter(|(_, column)| is_level(column));
+    let levels: Vec<(f64, f64)> = levels.map(of).collect();
+    (is_constant && left_by_two(levels) < LEFT_BY_TWO).then_some(DRIFT)
+}
+
+/// Of how far levels, each with its weight, are from their mean, the share of the squares that is left by two means at the best; 0 of one level.
+fn left_by_two(mut levels: Vec<(f64, f64)>) -> f64 {
+    levels.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let squares = |levels: &[(f64, f64)]| {
+        let weights: f64 = levels.iter().map(|level| level.1).sum();
+        let mean = levels.iter().map(|(value, weight)| weight * value).sum::<f64>() / weights;
+        levels.iter().map(|(value, weight)| weight * (value - mean).powi(2)).sum::<f64>()
+    };
+    let of_two = |at: usize| squares(&levels[..at]) + squares(&levels[at..]);
+    let left = (1..levels.len()).map(of_two).fold(f64::INFINITY, f64::min);
+    if left.is_finite() { left / squares(&levels).max(f64::MIN_POSITIVE) } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -67,5 +96,17 @@ mod tests {
         assert_eq!(named("illumination_drift:relative=0.05", &all, &[]), (vec![DRIFT], None));
         let (names, none) = named("illumination_drift:relative_before=0.03", &all[2..], &all[..2]);
         assert!(names == [DRIFT] && none == Some(DRIFT), "{names:?} {none:?}");
+    }
+
+    #[test]
+    fn levels_of_a_drift_that_goes_on_are_not_two() {
+        let of = |levels: &[f64]| left_by_two(levels.iter().map(|&level| (level, 1.0)).collect());
+        assert_eq!([of(&[]), of(&[1.0]), of(&[1.0, 2.0])], [0.0; 3]);
+        assert!(of(&[0.0, 3.0, 0.1, 2.9, 0.05]) < 0.01);
+        // Warm-ups that go on over six and over three recordings, as they come.
+        let warm = |count: usize| (0..count).map(|at| (-(at as f64) / 3.0).exp()).collect::<Vec<_>>();
+        assert!([6, 3].into_iter().all(|count| of(&warm(count)) > 0.15), "{} {}", of(&warm(6)), of(&warm(3)));
+        // Three levels at 0, 1 and 2: of the squares, 2, two means leave a half.
+        assert!((of(&[2.0, 0.0, 1.0]) - 0.25).abs() < 1e-12);
     }
 }

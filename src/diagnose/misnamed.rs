@@ -1,8 +1,9 @@
-//! Names that look right and are not: a line of several sources or of no lamp, a wave over the codes that is none.
+//! Names that look right and are not: a line of several sources or of no lamp, a step in time that is no drift, a wave over the codes that is none.
 
 use super::columns::Tangents;
 use super::data::Data;
 use super::gram::{Gram, Whitened};
+use super::hops::{Hop, hop};
 use super::images::alike;
 use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::{Line, Series};
@@ -32,7 +33,24 @@ pub fn misnamed(
 ) -> Option<Misnamed> {
     // Where nothing of the camera is described, overtones may be anything else that is left.
     let waves = || if data.assumed.camera { None } else { no_wave(data, found, baseline, noise) };
-    no_lamp(data, found, noise, inflation).or_else(waves)
+    let drifts = || if data.assumed.camera { None } else { no_drift(data, found, noise) };
+    no_lamp(data, found, noise, inflation).or_else(drifts).or_else(waves)
+}
+
+/// Where something changed at once that was taken for a drift.
+fn no_drift(data: &Data, found: &Found, noise: Noise) -> Option<Misnamed> {
+    let Hop { name, what, take, time_s } = hop(data, found, noise)?;
+    let named = found.named.iter().find(|named| named.name == name)?;
+    let place = Place {
+        coordinate: "time_s",
+        shape: format!("{what}, a step at {time_s:.1} s"),
+        ln_bayes: stands_for(named),
+        chi2: named.score,
+        looked: 1.0,
+        take,
+        is_random: false,
+    };
+    Some(Misnamed { names: vec![name], place })
 }
 
 /// Where something goes with the code that was taken for a wave, but has overtones, or is a step.

@@ -36,6 +36,7 @@ mod grid;
 mod held_frames;
 mod held_out;
 mod held_out_row;
+mod hops;
 mod images;
 mod in_order;
 mod included;

@@ -67,18 +67,18 @@ pub fn step(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
 }
 
 /// What each explains.
-struct Explained {
+pub struct Explained {
     /// The wave, where no step is.
-    wave: f64,
+    pub wave: f64,
     /// Each step, where the wave is not.
-    steps: Vec<f64>,
+    pub steps: Vec<f64>,
     /// The wave beside each step.
-    beside: Vec<f64>,
+    pub beside: Vec<f64>,
 }
 
 /// From information and score at a fit that has a wave of these parts: chi squared that the wave, as it is but for its size, and in its place or beside it each
 /// step, explains.
-fn alone(
+pub fn alone(
     information: &DMatrix<f64>,
     score: &DVector<f64>,
     (parts, wave): (&[usize], &DVector<f64>),
