@@ -254,6 +254,7 @@ fn weak_effects_are_named_beside_a_strong_jitter() {
 
 /// Gains alone are said by errors of each step, too; with gains beside them errors of the steps are their scale.
 #[test]
+#[ignore = "minutes: make slow"]
 fn two_effects_are_those_that_fit_together() {
     let effects = ["frame_gain:frame_1=0.002", "phase_step_scale:relative=0.002"];
     assert_eq!(names_with(&effects), ["frame_gain", "phase_step_scale"]);
@@ -298,6 +299,7 @@ fn a_gain_of_the_lasers_is_a_gain_of_frames() {
 
 /// A sweep goes through its phase offsets in time, but the rail does not.
 #[test]
+#[ignore = "minutes: make slow"]
 fn a_gain_that_follows_the_offset_is_a_mismatch_in_the_phase() {
     for cycles in [1.0, 3.0] {
         let verdict = verdict_of("four-rail,four-sweep,wdft-sweep", |sample| {

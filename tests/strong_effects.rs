@@ -145,6 +145,7 @@ fn a_strong_flicker_leaves_nothing() {
 /// A lamp that is no pure sine, by 0.7 %: what a flicker leaves of it is some 300 of chi squared in the ambient light, and no drift of that, though a drift would leave
 /// nothing.
 #[test]
+#[ignore = "minutes: make slow"]
 fn what_the_form_of_a_strong_flicker_leaves_is_no_drift() {
     const LAMP: &str = r#"
         [[effect]]
@@ -205,6 +206,7 @@ fn what_is_a_thousandth_of_the_falloff_is_named_beside_it() {
 
 /// A drift that goes on nearly evenly has a time constant far from where its fit begins: what is asserted is where the fit ends, not where its first steps do.
 #[test]
+#[ignore = "minutes: make slow"]
 fn a_fit_that_is_asserted_is_gone_on_with_to_its_end() {
     let folder = tempfile::tempdir().unwrap();
     let effect = ["--size", "8x6", "--seed", "3", "--effect", "ambient_drift:relative_a_second=0.005"];
