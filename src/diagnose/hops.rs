@@ -1,19 +1,16 @@
 //! A step in time that was taken for a drift: light, or a phase, that changes at once and stays so.
 
 use super::acting::Acting;
-use super::columns::{Frame, Tangents, own_values};
+use super::columns::{Frame, own_values};
 use super::data::Data;
 use super::evidence::VISIBLE;
-use super::gram::Gram;
 use super::noise::Noise;
 use super::search::Found;
-use super::steps::alone;
-use nalgebra::{DMatrix, DVector};
+use super::steps::{OfNamed, alone};
+use nalgebra::DMatrix;
 
 /// A recording's sets are taken together in so many parts at most, between which a step may be.
 const PARTS: usize = 64;
-/// Of what the drift explains, it says less than this share beside a step that was taken for it.
-const BESIDE: f64 = 0.25;
 /// A step explains more than the drift by so much of chi squared: it is the best one of many.
 const MORE: f64 = 20.0;
 
@@ -67,29 +64,16 @@ fn in_place_of(
         acting.column(first(take) + part, shape);
         vec![acting]
     };
-    let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
     let parts = first(times.len());
-    let (gram, ()) =
-        Gram::with_blocks(data, &tangents, noise, &|_| true, &[parts], &fill, &|(), _| (), &|(), ()| ());
-    let mut projected = gram.project(Some(fit.jitter_m2));
-    let is_drift = |column: usize| fit.pieces[fit.columns[column].piece].effect.name == name;
-    projected.give_way((0..fit.columns.len()).filter(|&column| !is_drift(column)));
-    let strengths: Vec<(usize, f64)> = (0..fit.columns.len())
-        .filter(|&column| is_drift(column))
-        .filter_map(|column| {
-            let piece = &fit.pieces[fit.columns[column].piece];
-            let number = fit.columns[column].parameter;
-            let parameter = &piece.effect.parameters[number];
-            (!parameter.is_shape()).then(|| (column, piece.values[number] - parameter.off))
-        })
-        .collect();
+    let OfNamed { projected, parts: strengths, sizes } =
+        OfNamed::at(data, found, noise, &[name], parts, &fill);
     // A step is in all parts from one on, of a recording.
     let ends = |take: usize| first(take)..first(take) + times[take].len();
     let steps: Vec<(usize, usize)> =
         (0..times.len()).flat_map(|take| ends(take).skip(1).map(move |part| (take, part))).collect();
     let mut sums = DMatrix::zeros(projected.vector.len(), strengths.len() + steps.len());
-    for (number, (column, _)) in strengths.iter().enumerate() {
-        sums[(*column, number)] = 1.0;
+    for (number, &column) in strengths.iter().enumerate() {
+        sums[(column, number)] = 1.0;
     }
     for (number, &(take, part)) in steps.iter().enumerate() {
         for later in part..ends(take).end {
@@ -98,20 +82,16 @@ fn in_place_of(
     }
     let (information, score) = (sums.tr_mul(&(&projected.matrix * &sums)), sums.tr_mul(&projected.vector));
     let raw = |number: usize| sums.column(number).dot(&projected.raw);
-    let drift = DVector::from_iterator(strengths.len(), strengths.iter().map(|strength| strength.1));
     let of_drift: Vec<usize> = (0..strengths.len()).collect();
     let of_steps: Vec<usize> = (0..steps.len()).map(|step| strengths.len() + step).collect();
-    let explained = alone(&information, &score, (&of_drift, &drift), &of_steps);
+    let explained = alone(&information, &score, (&of_drift, &sizes), &of_steps);
     let seen = |&step: &usize| {
         let column = of_steps[step];
         information[(column, column)] > VISIBLE * raw(column)
     };
-    let best =
-        (0..steps.len()).filter(seen).max_by(|&a, &b| explained.steps[a].total_cmp(&explained.steps[b]))?;
-    let is_it =
-        explained.steps[best] > explained.wave + MORE && explained.beside[best] < BESIDE * explained.wave;
+    let best = explained.stands_for(seen, MORE)?;
     let (take, part) = steps[best];
-    is_it.then(|| Hop { name, what, take, time_s: times[take][part - first(take)] })
+    Some(Hop { name, what, take, time_s: times[take][part - first(take)] })
 }
 
 /// When the parts of a recording begin, s: as many sets each.

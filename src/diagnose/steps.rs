@@ -4,7 +4,7 @@ use super::acting::Acting;
 use super::columns::{Column, Frame, Tangents};
 use super::data::Data;
 use super::evidence::VISIBLE;
-use super::gram::Gram;
+use super::gram::{Gram, Projected};
 use super::noise::Noise;
 use super::overtones::OF_CODES;
 use super::search::Found;
@@ -23,7 +23,6 @@ pub const CURVES: [&str; 2] = [OF_CODES, "intensity_nonlinearity"];
 /// all else that was.
 pub fn step(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
     let fit = &found.fit;
-    let is_curve = |piece: usize| CURVES.contains(&fit.pieces[piece].effect.name);
     let level_dn = |level: usize| {
         let place = (level as f64 + 0.5) / LEVELS as f64;
         place * place * fit.pixels.full_scale_dn
@@ -36,37 +35,58 @@ pub fn step(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
         }
         vec![acting]
     };
-    let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
-    let (gram, ()) =
-        Gram::with_blocks(data, &tangents, noise, &|_| true, &[LEVELS], &fill, &|(), _| (), &|(), ()| ());
-    let mut projected = gram.project(Some(fit.jitter_m2));
-    let is_wave = |column: &usize| is_curve(fit.columns[*column].piece);
-    projected.give_way((0..fit.columns.len()).filter(|column| !is_wave(column)));
-    // As large as the curve is, by parts: its strengths.
-    let is_part = |column: &usize| {
-        let Column { piece, parameter } = fit.columns[*column];
-        is_wave(column) && !fit.pieces[piece].effect.parameters[parameter].is_shape()
-    };
-    let parts: Vec<usize> = (0..fit.columns.len()).filter(is_part).collect();
-    let of = |&column: &usize| {
-        let Column { piece, parameter } = fit.columns[column];
-        fit.pieces[piece].values[parameter] - fit.pieces[piece].effect.parameters[parameter].off
-    };
-    let wave = DVector::from_iterator(parts.len(), parts.iter().map(of));
+    let OfNamed { projected, parts, sizes } = OfNamed::at(data, found, noise, &CURVES, LEVELS, &fill);
     let steps: Vec<usize> = (0..LEVELS).map(|level| fit.columns.len() + level).collect();
     let (information, score) = (&projected.matrix, &projected.vector);
-    let explained = alone(information, score, (&parts, &wave), &steps);
+    let explained = alone(information, score, (&parts, &sizes), &steps);
     let seen = |&level: &usize| {
         let step = steps[level];
         information[(step, step)] > VISIBLE * projected.raw[step]
     };
-    let step = |&level: &usize| explained.steps[level];
-    let best = (0..LEVELS).filter(seen).max_by(|a, b| step(a).total_cmp(&step(b)))?;
-    let is_it = step(&best) >= explained.wave && explained.beside[best] < BESIDE * explained.wave;
-    is_it.then(|| level_dn(best))
+    explained.stands_for(seen, 0.0).map(level_dn)
 }
 
-/// What each explains.
+/// What the samples say of what was named, with what may be in its place, beside all else that was found.
+pub struct OfNamed {
+    /// Information and score: the fit's columns, and those that may be in its place.
+    pub projected: Projected,
+    /// The fit's columns of what was named, but for its shapes.
+    pub parts: Vec<usize>,
+    /// As large as these are.
+    pub sizes: DVector<f64>,
+}
+
+impl OfNamed {
+    /// Of the effects called `names`, with so many columns besides, which `fill` gives by recording, number of the frame in it, and frame.
+    pub fn at(
+        data: &Data,
+        found: &Found,
+        noise: Noise,
+        names: &[&str],
+        columns: usize,
+        fill: &(dyn Fn(usize, usize, &Frame) -> Vec<Acting> + Sync),
+    ) -> Self {
+        let fit = &found.fit;
+        let (tangents, _) = Tangents::new(data, &fit.pixels, &fit.pieces, &[]);
+        let (gram, ()) =
+            Gram::with_blocks(data, &tangents, noise, &|_| true, &[columns], fill, &|(), _| (), &|(), ()| ());
+        let mut projected = gram.project(Some(fit.jitter_m2));
+        let is_named = |column: &usize| names.contains(&fit.pieces[fit.columns[*column].piece].effect.name);
+        projected.give_way((0..fit.columns.len()).filter(|column| !is_named(column)));
+        let of = |column: &usize| {
+            let Column { piece, parameter } = fit.columns[*column];
+            let piece = &fit.pieces[piece];
+            (&piece.effect.parameters[parameter], piece.values[parameter])
+        };
+        let is_part = |column: &usize| is_named(column) && !of(column).0.is_shape();
+        let parts: Vec<usize> = (0..fit.columns.len()).filter(is_part).collect();
+        let size = |column: &usize| of(column).1 - of(column).0.off;
+        let sizes = DVector::from_iterator(parts.len(), parts.iter().map(size));
+        Self { projected, parts, sizes }
+    }
+}
+
+/// What each explains: a wave, or what else was named, and steps.
 pub struct Explained {
     /// The wave, where no step is.
     pub wave: f64,
@@ -74,6 +94,16 @@ pub struct Explained {
     pub steps: Vec<f64>,
     /// The wave beside each step.
     pub beside: Vec<f64>,
+}
+
+impl Explained {
+    /// The step, of those that are `seen`, that explains as much as the wave and so `much_more`, and leaves that less than is [its own](BESIDE).
+    pub fn stands_for(&self, seen: impl Fn(&usize) -> bool, much_more: f64) -> Option<usize> {
+        let steps = (0..self.steps.len()).filter(seen);
+        let best = steps.max_by(|&a, &b| self.steps[a].total_cmp(&self.steps[b]))?;
+        let is_it = self.steps[best] >= self.wave + much_more && self.beside[best] < BESIDE * self.wave;
+        is_it.then_some(best)
+    }
 }
 
 /// From information and score at a fit that has a wave of these parts: chi squared that the wave, as it is but for its size, and in its place or beside it each
