@@ -17,13 +17,22 @@ pub struct Sample {
     pub code: f64,
 }
 
-/// Rewrites every code of the campaign's recordings by `change`.
-pub fn rewrite(campaign: &Path, change: impl Fn(Sample) -> f64) {
+/// Rewrites every recording of the campaign, by its number, as `change` leaves it.
+pub fn rewrite_recordings(campaign: &Path, change: impl Fn(usize, &mut Recording)) {
     let entries = std::fs::read_dir(campaign).unwrap().map(|entry| entry.unwrap().path());
     let mut folders: Vec<_> = entries.filter(|folder| folder.join("recording.toml").exists()).collect();
     folders.sort();
     for (number, folder) in folders.iter().enumerate() {
         let mut recording = Recording::open(folder).unwrap();
+        change(number, &mut recording);
+        std::fs::remove_dir_all(folder).unwrap();
+        write_recording(&recording, folder).unwrap();
+    }
+}
+
+/// Rewrites every code of the campaign's recordings by `change`.
+pub fn rewrite(campaign: &Path, change: impl Fn(Sample) -> f64) {
+    rewrite_recordings(campaign, |number, recording| {
         let geometry = recording.geometry();
         let frames = recording.raw.frames_per_set();
         let codes = recording.raw.codes().iter().enumerate().map(|(at, &code)| {
@@ -34,7 +43,22 @@ pub fn rewrite(campaign: &Path, change: impl Fn(Sample) -> f64) {
             changed.round().clamp(0.0, 4095.0) as u32
         });
         recording.raw = RawSets::new(geometry, frames, codes.collect()).unwrap();
-        std::fs::remove_dir_all(folder).unwrap();
-        write_recording(&recording, folder).unwrap();
-    }
+    });
+}
+
+/// Takes out of the campaign's recordings the sets that are not `kept` (number of the recording, of the set).
+#[allow(dead_code)]
+pub fn thin_out(campaign: &Path, kept: impl Fn(usize, usize) -> bool) {
+    rewrite_recordings(campaign, |number, recording| {
+        assert!(recording.frame_times_s.is_none(), "times of frames would have to be taken out, too");
+        let (geometry, frames) = (recording.geometry(), recording.raw.frames_per_set());
+        let mut set = 0;
+        recording.sets.retain(|_| {
+            set += 1;
+            kept(number, set - 1)
+        });
+        let sets = recording.raw.codes().chunks(frames * geometry.pixels()).enumerate();
+        let codes = sets.filter(|(set, _)| kept(number, *set)).flat_map(|(_, codes)| codes).copied();
+        recording.raw = RawSets::new(geometry, frames, codes.collect()).unwrap();
+    });
 }
