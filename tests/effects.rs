@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use vuris::bench::{practice_camera, sensor};
 use vuris::frames::Geometry;
 use vuris::physics::{
-    Act, Active, Before, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Formula, Included,
-    Memory, Moment, Parameter, PerPixel, Place, Stage, Target,
+    Act, Active, Before, Chain, Chance, Correlation, Draws, EFFECTS, Effect, Exposure, Fidelity, Formula,
+    Included, Memory, Moment, Parameter, PerPixel, Place, Stage, Target,
 };
 
 const SMALL: Geometry = Geometry { width: 8, height: 6 };
@@ -247,6 +247,7 @@ fn broken_effects_are_caught() {
             place: Place::Readout,
             chance: Chance::None,
             looks_back: false,
+            fidelity: Fidelity::Exact,
             act: Act::Code(act),
         }))
     }
@@ -290,6 +291,7 @@ fn formulas_act_after_the_registrys_effects() {
         place: Place::Charge,
         chance: Chance::None,
         looks_back: false,
+        fidelity: Fidelity::Exact,
         act: Act::Formula(Box::new(formula)),
     }));
     let crosstalk = EFFECTS.iter().find(|effect| effect.name == "electrical_crosstalk").unwrap();

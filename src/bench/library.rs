@@ -1,7 +1,7 @@
 //! Effects that a user adds as formulas in a TOML file.
 
 use crate::fields::{self, Fields};
-use crate::physics::{Act, COORDINATES, Chance, EFFECTS, Effect, Formula, Parameter, Target};
+use crate::physics::{Act, COORDINATES, Chance, EFFECTS, Effect, Fidelity, Formula, Parameter, Target};
 use crate::problem::{Problem, Result};
 
 /// Reads the text of the file called `file`: `[[effect]]` with name, sentence, `acts_on` (signal, phase, amplitude, ambient), formula, and
@@ -75,6 +75,7 @@ fn effect(fields: &Fields) -> Result<Effect> {
         place,
         chance: Chance::None,
         looks_back: false,
+        fidelity: Fidelity::Exact,
         act: Act::Formula(Box::new(formula)),
     })
 }

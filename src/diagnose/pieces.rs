@@ -5,7 +5,7 @@ use super::included::included_of;
 use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
 use super::refined::is_seldom;
-use crate::physics::{Active, EFFECTS, Effect, Parameter};
+use crate::physics::{Active, EFFECTS, Effect, Fidelity, Parameter};
 use crate::recording::BASELINE;
 
 /// An effect at certain values, in some of the recordings.
@@ -173,39 +173,15 @@ const BARELY: f64 = -1e-9;
 /// Effects that differ from pixel to pixel, told from others only where the target is at one place: what changes with the distance differs too.
 pub const OF_ONE_PLACE: [&str; 1] = ["response_decay"];
 
-/// How exactly the forms of effects are known: so much of what they explain may be left.
-const APPROXIMATE: f64 = 0.04;
-const LOOSE: f64 = 0.08;
-const EXACT: f64 = 0.01;
-/// Geometry has no other form, but for places and angles that are off by a hundredth: that, squared.
-const LAW: f64 = 1e-4;
-const TOLERANCES: [(&str, f64); 21] = [
-    ("axial_motion", LAW),
-    ("inverse_square_falloff", LAW),
-    ("multipath_interference", APPROXIMATE),
-    ("illumination_baseline", APPROXIMATE),
-    ("ambient_drift", APPROXIMATE),
-    ("ambient_flicker", APPROXIMATE),
-    ("illumination_droop", APPROXIMATE),
-    ("illumination_drift", APPROXIMATE),
-    ("response_decay", APPROXIMATE),
-    ("phase_drift", APPROXIMATE),
-    ("demodulation_skew", APPROXIMATE),
-    ("intensity_nonlinearity", APPROXIMATE),
-    ("adc_nonlinearity", APPROXIMATE),
-    ("phase_step_errors", APPROXIMATE),
-    ("lens_scatter", LOOSE),
-    ("mixed_pixels", LOOSE),
-    ("saturation", LOOSE),
-    ("image_lag", LOOSE),
-    ("charge_crosstalk", LOOSE),
-    ("intensity_related_phase", LOOSE),
-    ("lateral_motion", LOOSE),
-];
-
-/// Share of what the effect called `name` explains that its own form may leave.
+/// Share of what the effect called `name` explains that its own form may leave; a user's formula is exact.
 pub fn tolerance(name: &str) -> f64 {
-    TOLERANCES.iter().find(|(known, _)| *known == name).map_or(EXACT, |(_, tolerance)| *tolerance)
+    let known = EFFECTS.iter().find(|effect| effect.name == name);
+    match known.map_or(Fidelity::Exact, |effect| effect.fidelity) {
+        Fidelity::Law => 1e-4,
+        Fidelity::Exact => 0.01,
+        Fidelity::Approximate => 0.04,
+        Fidelity::Loose => 0.08,
+    }
 }
 
 /// A line that was found: shapes that it may have, among how many they were looked for, and its shape in each recording where that may differ.

@@ -157,6 +157,19 @@ pub enum Chance {
     Pixel,
 }
 
+/// How exactly the form of an effect is known: what cameras really do may differ from it by so much.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fidelity {
+    /// Geometry, which has no other form, but for places and angles that are off by a hundredth: that, squared.
+    Law,
+    /// A number that is what it is: an angle, a gain, a length.
+    Exact,
+    /// A curve or a course in time, of which the first terms are modelled.
+    Approximate,
+    /// What depends on a pixel's neighbourhood, or on its electronics, in more ways than are modelled.
+    Loose,
+}
+
 /// What values of an effect's parameters do to a frame that has come to [`Effect::place`].
 #[derive(Debug)]
 pub enum Act {
@@ -183,6 +196,8 @@ pub struct Effect {
     pub chance: Chance,
     /// Whether it needs [`Exposure::before`], the light of the frame before.
     pub looks_back: bool,
+    /// How exactly its form is known.
+    pub fidelity: Fidelity,
     /// The forward model.
     pub act: Act,
 }

@@ -30,7 +30,7 @@ mod trig;
 pub use chain::{Chain, Memory};
 pub use correlation::{Correlation, FREQUENCY_HZ, Harmonic, Waveform};
 pub use draws::Draws;
-pub use effect::{Act, Active, Chance, Effect, Parameter, Place};
+pub use effect::{Act, Active, Chance, Effect, Fidelity, Parameter, Place};
 pub use effects::EFFECTS;
 pub use exposure::{Before, Exposure, Included, Moment};
 pub use formula::{COORDINATES, Formula, Target};

@@ -110,28 +110,38 @@ impl<'a> Ruler<'a> {
 
     /// The whitened products of differences with each other, beyond the pixels' own numbers.
     pub fn products(&self, changes: &[&Movie]) -> DMatrix<f64> {
-        let count = changes.len();
+        let (count, pixels) = (changes.len(), self.inverses.len());
         let mut products = DMatrix::zeros(count, count);
-        let mut along = vec![vec![Vector4::zeros(); count]; self.inverses.len()];
+        let mut whitened = DMatrix::zeros(pixels, count);
+        // Along the pixels' own numbers, number after number.
+        let mut along = DMatrix::zeros(self.slopes.len() * pixels, count);
         for frame in 0..self.clean.len() {
-            for (pixel, along) in along.iter_mut().enumerate() {
-                let weight = self.weight(frame, pixel);
-                let slope = weight * self.slope(frame, pixel);
-                for (one, first) in changes.iter().enumerate() {
-                    along[one] += first[frame][pixel] * slope;
-                    for (other, second) in changes.iter().enumerate() {
-                        products[(one, other)] += weight * first[frame][pixel] * second[frame][pixel];
-                    }
+            let roots: Vec<f64> = (0..pixels).map(|pixel| self.weight(frame, pixel).sqrt()).collect();
+            for (column, change) in changes.iter().enumerate() {
+                let mut whitened = whitened.column_mut(column);
+                let whitened = whitened.as_mut_slice();
+                for ((value, root), change) in whitened.iter_mut().zip(&roots).zip(&change[frame]) {
+                    *value = root * change;
+                }
+                let mut along = along.column_mut(column);
+                for (along, slopes) in along.as_mut_slice().chunks_mut(pixels).zip(&self.slopes) {
+                    let parts = roots.iter().zip(&slopes[frame]).zip(&*whitened);
+                    along
+                        .iter_mut()
+                        .zip(parts)
+                        .for_each(|(sum, ((root, slope), value))| *sum += root * slope * value);
                 }
             }
+            products.gemm_tr(1.0, &whitened, &whitened, 1.0);
         }
-        for (along, inverse) in along.iter().zip(&self.inverses) {
-            for one in 0..count {
-                for other in 0..count {
-                    products[(one, other)] -= along[one].dot(&(inverse * along[other]));
-                }
+        let mut solved = along.clone();
+        for mut column in solved.column_iter_mut() {
+            for (pixel, inverse) in self.inverses.iter().enumerate() {
+                let solved = inverse * Vector4::from_fn(|number, _| column[number * pixels + pixel]);
+                (0..self.slopes.len()).for_each(|number| column[number * pixels + pixel] = solved[number]);
             }
         }
+        products.gemm_tr(-1.0, &along, &solved, 1.0);
         products
     }
 

@@ -71,9 +71,12 @@ impl Waveform {
 
     /// The correlation where the gate is `delay_rad` behind the light.
     pub fn at(&self, delay_rad: f64) -> f64 {
-        let place = (delay_rad / TAU).rem_euclid(1.0) * SAMPLES as f64;
-        let (cell, t) = (place as usize, place.fract());
-        let value = |offset: usize| self.correlation[(cell + SAMPLES + offset - 1) % SAMPLES];
+        let place = delay_rad / TAU * SAMPLES as f64;
+        // The whole number below, without a call of a library for each of so many delays.
+        let (towards, samples) = (place as i64, SAMPLES as i64);
+        let cell = towards - i64::from(place < towards as f64);
+        let t = place - cell as f64;
+        let value = |offset: i64| self.correlation[(cell + offset - 1).rem_euclid(samples) as usize];
         let (before, from, to, after) = (value(0), value(1), value(2), value(3));
         // Catmull and Rom (1974).
         let bend = 2.0 * before - 5.0 * from + 4.0 * to - after;

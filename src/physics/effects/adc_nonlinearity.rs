@@ -1,6 +1,6 @@
 //! The converter's integral non-linearity.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, cos_sin};
 use crate::widest::widest;
 use std::f64::consts::TAU;
 
@@ -29,6 +29,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! Ambient light that drifts.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Relative change of the ambient light, a second, when the recording begins; by how much it had changed before; and the time in which it settles,
 /// as lamps do that warm up: 10 000 s is as good as never.
@@ -16,6 +16,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Light,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! Ambient light from lamps on the mains.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, cos_sin};
 use std::f64::consts::TAU;
 
 /// Relative modulation of the ambient light at twice the mains frequency.
@@ -16,6 +16,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Light,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! The phase changes while a set is taken.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Share of the recorded velocity that the phase follows from frame to frame; 1 is physics.
 pub static EFFECT: Effect = Effect {
@@ -12,6 +12,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Law,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! Charge that wanders to neighbouring pixels.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 const fn from(name: &'static str) -> Parameter {
     Parameter::strength(name, "1", 0.0, (0.0, 0.15), 0.005).instead()
@@ -22,6 +22,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Charge,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Loose,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! The modulation's phase jitters from frame to frame.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Standard deviation of the phase of a frame, common to all pixels.
 pub static EFFECT: Effect = Effect {
@@ -11,6 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::Frame,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! Harmonics of the waveform that the simulation lacks: wiggling, cyclic error.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 const BOUNDS: (f64, f64) = (-0.3, 0.3);
 const fn part(name: &'static str, typical: f64) -> Parameter {
@@ -30,6 +30,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Waveform,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

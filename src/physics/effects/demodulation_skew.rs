@@ -1,6 +1,6 @@
 //! The demodulation signal reaches columns and rows at different times.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 use std::f64::consts::TAU;
 
 /// Delay from the first to the last column, and from the first to the last row.
@@ -15,6 +15,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Path,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

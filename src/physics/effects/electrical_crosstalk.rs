@@ -1,6 +1,6 @@
 //! The modulation couples into the read-out without any light.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, cos_sin};
 
 /// Parts of a signal at the demodulation's own phase.
 pub static EFFECT: Effect = Effect {
@@ -14,6 +14,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Charge,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! The encoder errs periodically.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place, cos_sin};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, cos_sin};
 use std::f64::consts::TAU;
 
 /// Parts of the error, and its period. The carriage moves as it is commanded (0), or, controlled by this very encoder, as its readings say, faster and slower
@@ -18,6 +18,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Encoder,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

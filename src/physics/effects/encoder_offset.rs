@@ -1,6 +1,6 @@
 //! The encoder's zero is off.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// How much farther the target is than the reading says. The pixels' own phases absorb the phase of it; the light falls off with the true distance.
 pub static EFFECT: Effect = Effect {
@@ -11,6 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Encoder,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

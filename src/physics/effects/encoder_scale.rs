@@ -1,6 +1,6 @@
 //! The encoder's scale is off.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Relative error of the position. The carriage moves as fast as it is commanded (0), or, controlled by this very encoder, by this factor faster (1), which all
 /// recordings take for an error of the modulation frequency.
@@ -15,6 +15,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Encoder,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

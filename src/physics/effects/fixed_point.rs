@@ -3,7 +3,7 @@
 //! Recordings hold raw codes, so that no later rounding of a pipeline can be in them. `fixed_point:pipeline=SPEC` on the command line takes
 //! the number of bits from a pipeline's specification.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Bits of the code that are cut off.
 pub static EFFECT: Effect = Effect {
@@ -14,6 +14,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! Frames of a set with gains of their own.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 const fn gain(name: &'static str) -> Parameter {
     Parameter::strength(name, "1", 0.0, (-0.3, 0.3), 0.005)
@@ -82,6 +82,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

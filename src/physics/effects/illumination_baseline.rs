@@ -1,6 +1,6 @@
 //! Light that starts beside the lens.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 use crate::units::phase_rad;
 use std::sync::Arc;
 
@@ -26,6 +26,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Waveform,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

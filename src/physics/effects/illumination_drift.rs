@@ -1,6 +1,6 @@
 //! The camera's own light drifts over minutes.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Relative loss of the camera's own light by the time a warm-up takes, what it had lost when the recording began, and the time of a warm-up. Of light that falls
 /// evenly both the first and the last are large; there is none below no light.
@@ -16,6 +16,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Light,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! The camera's own light weakens within a set.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Relative change of the camera's own light from the set's first frame to its last, and the time in which it relaxes: 1000 s is as good as
 /// evenly.
@@ -15,6 +15,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Light,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

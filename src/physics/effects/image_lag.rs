@@ -1,6 +1,6 @@
 //! Charge that stays behind for the next frame.
 
-use crate::physics::{Act, Before, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Before, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Share of a frame's charge that is read with the next one. Before a set's first frame the camera took a step that is as far from the first as
 /// the first from the second (0), or the set's last step (1), or the first one (-3), or it rested since the last frame of the set before (-2); or the pixels were
@@ -16,6 +16,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Charge,
     chance: Chance::None,
     looks_back: true,
+    fidelity: Fidelity::Loose,
     act: Act::Code(act),
 };
 

@@ -1,7 +1,7 @@
 //! The pixel's response is not linear in the light.
 
 use crate::physics::powers::power;
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 use crate::widest::widest;
 
 /// Quadratic and cubic part, relative to the linear one at full scale; and by how much the exponent of a response that is a power of the
@@ -18,6 +18,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

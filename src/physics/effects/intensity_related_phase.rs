@@ -1,7 +1,7 @@
 //! A phase that depends on the amplitude.
 
 use crate::physics::powers::{ln, power};
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 use crate::widest::widest;
 
 /// Phase a factor of e in amplitude, at the reference; in proportion to the logarithm of the amplitude (0), to the amplitude itself (1), or to one
@@ -17,6 +17,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Waveform,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Loose,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! The light falls off while a set is taken.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Share of the way during a set that the light's falloff follows; 1 is physics.
 pub static EFFECT: Effect = Effect {
@@ -12,6 +12,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Law,
     act: Act::Code(act),
 };
 

@@ -1,7 +1,7 @@
 //! The scene moves sideways during a set.
 
 use crate::physics::slopes::{Side, slopes, slopes_of_texture};
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 use std::sync::Arc;
 
 /// Columns and rows by which the image moves, a second, or, where the carriage's way is not the camera's axis, a metre of that way. All that is in the image moves
@@ -20,6 +20,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Loose,
     act: Act::Code(act),
 };
 

@@ -1,7 +1,7 @@
 //! Light that the lens and the camera scatter over the image.
 
 use crate::frames::Geometry;
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Share of every pixel's light that is spread: over all pixels alike (0), or around it, falling by a factor e every so much of the image's width along its columns and
 /// as far along its rows. What falls beyond the image's border is lost then, and nothing comes from there.
@@ -16,6 +16,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Loose,
     act: Act::Code(act),
 };
 

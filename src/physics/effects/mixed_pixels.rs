@@ -1,6 +1,6 @@
 //! Pixels at the target's edge that see target and background.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 const fn share(name: &'static str) -> Parameter {
     Parameter::strength(name, "1", 0.0, (0.0, 0.6), 0.2)
@@ -27,6 +27,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Loose,
     act: Act::Code(act),
 };
 

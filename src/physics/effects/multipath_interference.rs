@@ -1,6 +1,6 @@
 //! Light that comes back by a longer way too.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Pixels, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Pixels, Place};
 use crate::units;
 use crate::widest::widest;
 
@@ -23,6 +23,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

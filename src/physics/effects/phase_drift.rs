@@ -1,6 +1,6 @@
 //! The phase drifts with temperature.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Drift of the phase by the time a warm-up takes, by how much it had drifted when the recording began, and the time of a warm-up.
 pub static EFFECT: Effect = Effect {
@@ -15,6 +15,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! Each phase step with an error of its own.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 use std::f64::consts::TAU;
 
 const fn step(name: &'static str) -> Parameter {
@@ -83,6 +83,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

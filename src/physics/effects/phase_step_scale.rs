@@ -1,6 +1,6 @@
 //! All phase steps too large or too small by the same factor.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Relative error of the phase step; and whether the set's phase offset, which the same phase shifter makes, has it too (1) or not (0).
 pub static EFFECT: Effect = Effect {
@@ -14,6 +14,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

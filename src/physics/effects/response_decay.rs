@@ -1,7 +1,7 @@
 //! What the pixels answer fades while they are recorded, in some regions faster than in others.
 
 use crate::physics::powers::exp;
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 use crate::widest::widest;
 
 const fn rate(name: &'static str) -> Parameter {
@@ -28,6 +28,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Light,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 

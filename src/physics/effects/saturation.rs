@@ -1,6 +1,6 @@
 //! The pixel's well is full before the converter is.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Share of the full scale that the well lacks.
 pub static EFFECT: Effect = Effect {
@@ -11,6 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Loose,
     act: Act::Code(act),
 };
 

@@ -1,6 +1,6 @@
 //! Two taps that take turns, and are not alike.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Moment, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Moment, Parameter, Place};
 use std::f64::consts::{PI, TAU};
 
 /// Steps are what they are taken for within this, rad, in recordings.
@@ -21,6 +21,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Readout,
     chance: Chance::None,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

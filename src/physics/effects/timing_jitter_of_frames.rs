@@ -1,6 +1,6 @@
 //! Frames that begin earlier or later than they should.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
 /// Standard deviation of a frame's start.
 pub static EFFECT: Effect = Effect {
@@ -11,6 +11,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::Frame,
     looks_back: false,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

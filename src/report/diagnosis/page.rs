@@ -4,7 +4,7 @@ use super::curves::curve;
 use super::paragraph::{chance, counted, paragraph};
 use super::proposed::to_separate;
 use super::remarks::{NOTHING_HELD_OUT, remarks, risk};
-use super::text::probability;
+use super::text::{probability, value};
 use crate::diagnose::{Agreement, Alone, Diagnosis, Location};
 use crate::report::colour_map::ColourMap;
 use crate::report::pixel_image::png_data_uri;
@@ -92,7 +92,7 @@ pub fn diagnosis_page(campaign: &Path, diagnosis: &Diagnosis) -> crate::problem:
                     .map(|row| {
                         vec![
                             row.name.clone(),
-                            format!("{:.6}", row.value),
+                            value(row.value),
                             if row.at_bound {
                                 "at its bound".to_owned()
                             } else if row.sigma > 0.0 {

@@ -15,6 +15,11 @@ pub fn probability(p: f64) -> String {
     if p < 1e-300 { "< 1e-300".to_owned() } else { format!("{p:.1e}") }
 }
 
+/// A parameter's value: six decimals, or, where these would show too little of it, four digits.
+pub fn value(value: f64) -> String {
+    if value == 0.0 || value.abs() >= 1e-4 { format!("{:.6}", value + 0.0) } else { format!("{value:.3e}") }
+}
+
 /// What `diagnosis` says of `campaign`, in a screenful.
 pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
     let answer = &diagnosis.answer;
@@ -47,7 +52,7 @@ pub fn diagnosis_text(campaign: &Path, diagnosis: &Diagnosis) -> String {
             let bound = if row.at_bound { ", at its bound" } else { "" };
             // What is a choice, or was not fitted, is not known to some accuracy.
             let known_to = if row.sigma > 0.0 { format!(" \u{b1} {:.2e}", row.sigma) } else { String::new() };
-            let _ = writeln!(text, "  {} = {:.6}{known_to}{unit}{bound}", row.name, row.value);
+            let _ = writeln!(text, "  {} = {}{known_to}{unit}{bound}", row.name, value(row.value));
         }
         let more = effect.parameters.len().saturating_sub(3 * MOST);
         if more > 0 {
@@ -123,5 +128,17 @@ fn distance(what: &str, rms_m: [f64; 2]) -> String {
     match before_mm.is_finite() {
         true => format!(", {what} {before_mm:.2} -> {after_mm:.2} mm RMS"),
         false => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_values_are_not_written_as_nothing() {
+        let all = [0.0, -0.0, -3.21e-9, 4.2e-5, 1e-4, -0.25, 64.0];
+        let written = ["0.000000", "0.000000", "-3.210e-9", "4.200e-5", "0.000100", "-0.250000", "64.000000"];
+        assert_eq!(all.map(value), written);
     }
 }
