@@ -18,7 +18,7 @@ enum Change {
 }
 
 /// Steps of the scalars, in their units. What comes after need not be smooth: a converter's error may have a period of some DN.
-const SCALAR_STEPS: [f64; Exposure::SCALARS] = [1e-6, 1e-6, 1e-6, 1e-5, 1e-5, 1.0, 1e-5];
+const SCALAR_STEPS: [f64; Exposure::SCALARS] = [1e-6, 1e-6, 1e-6, 1e-5, 1e-5, 1.0, 1e-5, 1e-6];
 /// Relative step of the light.
 const LIGHT_STEP: f64 = 1e-5;
 /// Two factors are the same where they differ by no more than rounding.

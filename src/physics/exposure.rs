@@ -5,6 +5,7 @@
 use super::correlation::{Correlation, Waveform};
 use super::per_pixel::PerPixel;
 use super::pixels::Pixels;
+use crate::frames::Geometry;
 use crate::units::phase_rad;
 use crate::widest::widest;
 use std::sync::Arc;
@@ -102,6 +103,8 @@ pub struct Exposure {
     pub velocity_m_s: f64,
     /// Start of the frame, s, from the start of its set, as it truly is.
     pub in_set_s: f64,
+    /// From the start of the first row to that of the one after the last, s: 0 where all rows begin at once.
+    pub over_rows_s: f64,
     /// Share of the way since the set's start that the phase has followed: 1 where axial motion is modelled.
     pub motion_share: f64,
     /// The same of the light's falloff.
@@ -152,6 +155,7 @@ impl Exposure {
             position_m: moment.position_m,
             velocity_m_s: moment.velocity_m_s,
             in_set_s: moment.in_set_s,
+            over_rows_s: 0.0,
             motion_share: f64::from(u8::from(included.axial_motion)),
             falloff_share: f64::from(u8::from(included.inverse_square_falloff)),
             frequency_hz: moment.frequency_hz,
@@ -180,7 +184,7 @@ impl Exposure {
     }
 
     /// Numbers of a frame that effects change.
-    pub const SCALARS: usize = 7;
+    pub const SCALARS: usize = 8;
 
     /// Those numbers.
     pub fn scalars(&self) -> [f64; Self::SCALARS] {
@@ -192,6 +196,7 @@ impl Exposure {
             self.falloff_share,
             self.frequency_hz,
             self.angle_rad,
+            self.over_rows_s,
         ]
     }
 
@@ -205,6 +210,7 @@ impl Exposure {
             &mut self.falloff_share,
             &mut self.frequency_hz,
             &mut self.angle_rad,
+            &mut self.over_rows_s,
         ]
     }
 
@@ -240,15 +246,22 @@ impl Exposure {
         self.velocity_m_s * self.in_set_s
     }
 
+    /// By how much the target has moved farther, m, when the last row begins than when the first one does, if all of the way since the set's start
+    /// counts.
+    fn way_over_rows_m(&self) -> f64 {
+        self.velocity_m_s * self.over_rows_s
+    }
+
     /// Ranges and phases from position and motion.
     pub fn look(&mut self) {
         let position_m = self.position_m + self.motion_share * self.way_m();
+        let over_rows_m = self.motion_share * self.way_over_rows_m();
         let (pixels, frequency_hz) = (&*self.pixels, self.frequency_hz);
         let (mut ranges, mut phases) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
         let (ranges_m, phases_rad) = (&mut ranges[..], &mut phases[..]);
-        widest!((pixels: &'a Pixels, position_m: f64, frequency_hz: f64,
+        widest!((pixels: &'a Pixels, position_m: f64, over_rows_m: f64, frequency_hz: f64,
                  ranges_m: &'a mut [f64], phases_rad: &'a mut [f64]) {
-            fill_ranges_m(pixels, position_m, ranges_m);
+            fill_ranges_m(pixels, position_m, over_rows_m, ranges_m);
             for ((phase, range_m), own_rad) in phases_rad.iter_mut().zip(ranges_m).zip(&pixels.phase_rad) {
                 *phase = phase_rad(*range_m, frequency_hz) + own_rad;
             }
@@ -259,14 +272,15 @@ impl Exposure {
     /// Light from ranges: the camera's own falls with the square of the range, ambient light does not.
     pub fn light(&mut self) {
         let position_m = self.position_m + self.falloff_share * self.way_m();
+        let over_rows_m = self.falloff_share * self.way_over_rows_m();
         let Moment { lit, transmission, .. } = self.moment;
         let (pixels, lit) = (&*self.pixels, transmission * f64::from(u8::from(lit)));
         let (mut amplitudes, mut constants) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
         let (amplitude_dn, constant_dn) = (&mut amplitudes[..], &mut constants[..]);
-        widest!((pixels: &'a Pixels, position_m: f64, lit: f64,
+        widest!((pixels: &'a Pixels, position_m: f64, over_rows_m: f64, lit: f64,
                  amplitude_dn: &'a mut [f64], constant_dn: &'a mut [f64]) {
             // Ranges stand first where amplitudes will.
-            fill_ranges_m(pixels, position_m, amplitude_dn);
+            fill_ranges_m(pixels, position_m, over_rows_m, amplitude_dn);
             let own = pixels.amplitude_1m_dn.iter().zip(&pixels.constant_1m_dn);
             let light = amplitude_dn.iter_mut().zip(constant_dn);
             for ((amplitude, constant), (amplitude_1m, constant_1m)) in light.zip(own) {
@@ -330,11 +344,21 @@ impl Exposure {
     }
 }
 
-/// Radial ranges where the target is at `position_m`, m.
+/// Radial ranges where the target is at `position_m`, m, when the first row begins, and `over_rows_m` farther after the last one.
 #[inline(always)]
-fn fill_ranges_m(pixels: &Pixels, position_m: f64, ranges_m: &mut [f64]) {
+fn fill_ranges_m(pixels: &Pixels, position_m: f64, over_rows_m: f64, ranges_m: &mut [f64]) {
     let places = pixels.target.iter().zip(&pixels.obliquity).zip(&pixels.background_m);
     for (range_m, ((&target, obliquity), &background_m)) in ranges_m.iter_mut().zip(places) {
         *range_m = if target { position_m * obliquity } else { background_m };
+    }
+    if over_rows_m != 0.0 {
+        let Geometry { width, height } = pixels.geometry;
+        let targets = pixels.target.chunks(width).zip(pixels.obliquity.chunks(width));
+        for (row, (ranges_m, (target, obliquity))) in ranges_m.chunks_mut(width).zip(targets).enumerate() {
+            let way_m = over_rows_m * row as f64 / height as f64;
+            for (range_m, (&target, obliquity)) in ranges_m.iter_mut().zip(target.iter().zip(obliquity)) {
+                *range_m += if target { way_m * obliquity } else { 0.0 };
+            }
+        }
     }
 }

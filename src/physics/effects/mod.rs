@@ -4,6 +4,7 @@ mod adc_nonlinearity;
 mod ambient_drift;
 mod ambient_flicker;
 mod axial_motion;
+mod background_light_suppression;
 mod charge_crosstalk;
 mod clock_jitter;
 mod correlation_harmonics;
@@ -15,6 +16,7 @@ mod encoder_scale;
 mod excess_noise;
 mod fixed_point;
 mod frame_gain;
+mod frame_timing_error;
 mod illumination_baseline;
 mod illumination_drift;
 mod illumination_droop;
@@ -26,10 +28,12 @@ mod lateral_motion;
 mod lens_scatter;
 mod mixed_pixels;
 mod modulation_frequency_error;
+mod multi_camera_interference;
 mod multipath_interference;
 mod phase_drift;
 mod phase_step_errors;
 mod phase_step_scale;
+mod radial_axial_distance;
 mod response_decay;
 mod saturation;
 mod tap_mismatch;
@@ -77,6 +81,10 @@ pub static EFFECTS: &[&Effect] = &[
     &response_decay::EFFECT,
     &encoder_offset::EFFECT,
     &illumination_baseline::EFFECT,
+    &frame_timing_error::EFFECT,
+    &radial_axial_distance::EFFECT,
+    &multi_camera_interference::EFFECT,
+    &background_light_suppression::EFFECT,
 ];
 
 /// The effect called `name`.
