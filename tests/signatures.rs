@@ -509,8 +509,60 @@ fn lateral_motion(make: Make, findings: &mut Findings) {
     }
 }
 
+/// Beside a motion that is known, frames that follow each other more slowly see the target later: by 1.5 periods' share on average. One that is late turns its own
+/// phase, of four, by the way that the target has gone.
+fn frame_timing_error(make: Make, findings: &mut Findings) {
+    for velocity_m_s in [0.4, -0.4] {
+        let metres = unambiguous_range_m(30e6) / TAU;
+        let mean_m = |more: Vec<Active>| {
+            let moving = [scaled(1.0, "axial_motion", &[("share", 1.0)]), more].concat();
+            Experiment { velocity_m_s, ..Experiment::four() }.cycles(moving).mean() * metres
+        };
+        let longer_m = mean_m(make("frame_timing_error", &[("relative", 0.2)])) - mean_m(Vec::new());
+        findings.about("another period, m", longer_m, 1.5 * 0.2 * velocity_m_s * PERIOD_S, 0.02);
+        let late_m = mean_m(make("frame_timing_error", &[("frame_2_s", 0.004)])) - mean_m(Vec::new());
+        findings.about("a late frame, m", late_m, 0.25 * 0.004 * velocity_m_s, 0.02);
+    }
+}
+
+/// A pixel that looks 1.1 times as far as the axis says that it is 0.03 m more, where the bowl is 30 % deeper.
+fn radial_axial_distance(make: Make, findings: &mut Findings) {
+    let phase = |effects: &dyn Fn() -> Vec<Active>| {
+        let frame = |number: usize| {
+            let pixels = Pixels { obliquity: vec![1.1], ..row(&[A]) };
+            frame_of(pixels, effects(), number)[0]
+        };
+        (frame(1) - frame(3)).atan2(frame(0) - frame(2))
+    };
+    let more = phase(&|| make("radial_axial_distance", &[("relative", 0.3)])) - phase(&Vec::new);
+    findings.about("phase", more, phase_rad(0.03, 30e6), 1e-9);
+}
+
+/// What is seen of the other camera turns with the phase steps, and the other way round with the beat.
+fn multi_camera_interference(make: Make, findings: &mut Findings) {
+    let other =
+        || make("multi_camera_interference", &[("cosine_dn", 2.0), ("sine_dn", 0.5), ("beat_hz", 3.0)]);
+    for frame in 0..4 {
+        let more = still_frame(&[A], other(), frame)[0] - still_frame(&[A], Vec::new(), frame)[0];
+        let angle = frame as f64 * (FRAC_PI_2 - TAU * 3.0 * PERIOD_S);
+        findings.about("a frame, DN", more, 2.0 * angle.cos() + 0.5 * angle.sin(), 1e-9);
+    }
+}
+
+/// At 1 m all pixels have 600 DN of constant light: more than a tenth of full scale, and less than a fifth.
+fn background_light_suppression(make: Make, findings: &mut Findings) {
+    for (threshold, share) in [(0.1, 1.0), (0.15, 0.5), (0.2, 0.0)] {
+        let settings = [("pedestal_dn", 2.0), ("threshold_of_full_scale", threshold)];
+        for frame in 0..4 {
+            let with = still_frame(&[A], make("background_light_suppression", &settings), frame)[0];
+            let more = with - still_frame(&[A], Vec::new(), frame)[0];
+            findings.below("a frame, DN", more - 2.0 * share, 1e-3);
+        }
+    }
+}
+
 type Signature = fn(Make, &mut Findings);
-const SIGNATURES: [(&str, Signature); 16] = [
+const SIGNATURES: [(&str, Signature); 20] = [
     ("correlation_harmonics", harmonics),
     ("phase_step_scale", phase_step_scale),
     ("phase_step_errors", phase_step_errors),
@@ -527,6 +579,10 @@ const SIGNATURES: [(&str, Signature); 16] = [
     ("electrical_crosstalk", electrical_crosstalk),
     ("multipath_interference", multipath),
     ("illumination_baseline", illumination_baseline),
+    ("frame_timing_error", frame_timing_error),
+    ("radial_axial_distance", radial_axial_distance),
+    ("multi_camera_interference", multi_camera_interference),
+    ("background_light_suppression", background_light_suppression),
 ];
 
 fn findings(signature: Signature, make: Make) -> Vec<String> {

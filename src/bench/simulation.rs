@@ -22,6 +22,9 @@ pub struct Simulation<'a> {
     pub recording: u32,
 }
 
+/// So many effects of the registry, its first ones, have a draw of each frame: the others draw nothing, so that a longer registry leaves all noise as it was.
+const DRAWING: usize = 34;
+
 /// What is drawn for a frame, always in this order, so that an effect more or less changes no other's draws.
 struct FrameDraws {
     registry: Vec<f64>,
@@ -32,13 +35,14 @@ impl Simulation<'_> {
     fn draws(&self, index: usize) -> FrameDraws {
         let stream = (u64::from(self.recording) << 32) | (index as u64 & 0xffff_ffff);
         let mut rest = Draws::of(self.seed, stream);
-        FrameDraws { registry: rest.normal(EFFECTS.len()), rest }
+        FrameDraws { registry: rest.normal(DRAWING), rest }
     }
 
     /// The deviates of the chain's effects, by their places in the registry.
     fn deviates(&self, draws: &FrameDraws) -> Vec<f64> {
         let place = |name: &str| EFFECTS.iter().position(|effect| effect.name == name);
-        let deviate = |name: &str| place(name).map_or(0.0, |place| draws.registry[place]);
+        let deviate =
+            |name: &str| place(name).and_then(|place| draws.registry.get(place).copied()).unwrap_or(0.0);
         self.chain.effects().iter().map(|active| deviate(active.effect.name)).collect()
     }
 
@@ -103,4 +107,16 @@ pub fn simulate(simulation: &Simulation, course: &Course, tell: &(dyn Fn() + Syn
         let found = format!("{pixels} pixels, {} frames", course.count());
         Problem::at("simulation", found).expected("at least one of each")
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::Chance;
+
+    #[test]
+    fn whatever_draws_for_a_frame_is_among_the_first() {
+        assert!(EFFECTS.iter().skip(DRAWING).all(|effect| effect.chance == Chance::None));
+        assert!(EFFECTS.iter().take(DRAWING).any(|effect| effect.chance == Chance::Frame));
+    }
 }

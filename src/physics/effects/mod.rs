@@ -77,7 +77,7 @@ pub static EFFECTS: &[&Effect] = &[
     &lateral_motion::EFFECT,
     &excess_noise::EFFECT,
     &fixed_point::EFFECT,
-    // New ones come last: what chance draws follows the order.
+    // New ones come last: what chance draws follows the order (`bench/simulation.rs` says how far).
     &response_decay::EFFECT,
     &encoder_offset::EFFECT,
     &illumination_baseline::EFFECT,

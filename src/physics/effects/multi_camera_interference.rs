@@ -19,7 +19,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Correlation,
     chance: Chance::None,
     looks_back: false,
-    fidelity: Fidelity::Loose,
+    fidelity: Fidelity::Approximate,
     act: Act::Code(act),
 };
 
