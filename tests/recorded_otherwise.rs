@@ -5,7 +5,7 @@ mod diagnosed;
 mod rewritten;
 
 use diagnosed::{names, parameter, simulated, verdict};
-use rewritten::{rewrite, rewrite_recordings};
+use rewritten::rewrite_recordings;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
@@ -59,14 +59,19 @@ fn another_focal_length_is_a_bowl_that_grows_with_the_distance() {
 #[test]
 fn another_cameras_light_is_named_with_its_beat() {
     let verdict = verdict_of("four-rail,four-motion", |campaign| {
-        rewrite(campaign, |sample| {
-            // Sets of the rail begin every 275 ms, those of the motion every 100 ms.
-            let set_s = [0.1, 0.275][usize::from(sample.recording == 1)];
-            let time_s = set_s * sample.set as f64 + 0.025 * sample.frame as f64;
-            let angle = FRAC_PI_2 * sample.frame as f64 - TAU * 1.37 * time_s + sample.recording as f64;
-            // Codes are whole: what is between two of them comes by chance.
-            let place = (sample.row * 31 + sample.column * 17 + sample.set * 7 + sample.frame * 3) % 10;
-            sample.code + 2.0 * angle.cos() + (place as f64 - 4.5) / 10.0
+        rewrite_recordings(campaign, |number, recording| {
+            let (geometry, frames) = (recording.geometry(), recording.raw.frames_per_set());
+            let code = |(at, &code): (usize, &u32)| {
+                let (index, pixel) = (at / geometry.pixels(), at % geometry.pixels());
+                let (set, frame) = (index / frames, index % frames);
+                let time_s = recording.sets[set].time_s + 0.025 * frame as f64;
+                let angle = FRAC_PI_2 * frame as f64 - TAU * 1.37 * time_s + number as f64;
+                // Codes are whole: what is between two of them comes by chance.
+                let chance = ((pixel * 31 + set * 7 + frame * 3) % 10) as f64 / 10.0;
+                (f64::from(code) + 2.0 * angle.cos() + chance).floor() as u32
+            };
+            let codes = recording.raw.codes().iter().enumerate().map(code).collect();
+            recording.raw = RawSets::new(geometry, frames, codes).unwrap();
         });
     });
     assert_eq!(names(&verdict), ["multi_camera_interference"], "{verdict:#}");

@@ -66,7 +66,7 @@ pub struct Assumed {
 }
 
 /// Above so many codes below full scale a sample is clipped, or about to be.
-const CLIPPED_DN: u32 = 2;
+pub const CLIPPED_DN: u32 = 2;
 
 /// Numbers that each pixel has at least: amplitude, phase, and light that does not follow the modulation.
 const LEAST_OWN: usize = 3;

@@ -50,6 +50,7 @@ mod location;
 mod marginal;
 mod mismatch;
 mod misnamed;
+mod near_full;
 mod needless;
 mod next;
 mod noise;

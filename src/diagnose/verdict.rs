@@ -14,6 +14,7 @@ use super::held_out_row::HeldOutRow;
 use super::judge::{Judgement, judge};
 use super::left_out::{LeftOut, without_outliers};
 use super::mismatch::Place;
+use super::near_full::below_full;
 use super::next::next;
 use super::noise::Noise;
 use super::noise::measured;
@@ -77,7 +78,12 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     // A scene that stands still has no mask.
     let masked = if data.assumed.still_scene { None } else { with_mask(data, noise) };
     let (data, moved) = masked.as_ref().map_or((data, 0), |(data, moved)| (data, *moved));
-    let baseline = unfitted(data, noise);
+    let mut baseline = unfitted(data, noise);
+    let below = below_full(data, &baseline, noise);
+    if let Some(below) = &below {
+        baseline = unfitted(below, noise);
+    }
+    let data = below.as_ref().unwrap_or(data);
     let (mut fewer, baseline, mut left_out) = without_outliers(data, baseline, noise);
     let mut judgement = judge(fewer.as_ref().unwrap_or(data), baseline, noise);
     // Sets that random errors make unlike others are no outliers.

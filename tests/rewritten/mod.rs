@@ -31,6 +31,7 @@ pub fn rewrite_recordings(campaign: &Path, change: impl Fn(usize, &mut Recording
 }
 
 /// Rewrites every code of the campaign's recordings by `change`.
+#[allow(dead_code)]
 pub fn rewrite(campaign: &Path, change: impl Fn(Sample) -> f64) {
     rewrite_recordings(campaign, |number, recording| {
         let geometry = recording.geometry();
