@@ -538,31 +538,8 @@ fn radial_axial_distance(make: Make, findings: &mut Findings) {
     findings.about("phase", more, phase_rad(0.03, 30e6), 1e-9);
 }
 
-/// What is seen of the other camera turns with the phase steps, and the other way round with the beat.
-fn multi_camera_interference(make: Make, findings: &mut Findings) {
-    let other =
-        || make("multi_camera_interference", &[("cosine_dn", 2.0), ("sine_dn", 0.5), ("beat_hz", 3.0)]);
-    for frame in 0..4 {
-        let more = still_frame(&[A], other(), frame)[0] - still_frame(&[A], Vec::new(), frame)[0];
-        let angle = frame as f64 * (FRAC_PI_2 - TAU * 3.0 * PERIOD_S);
-        findings.about("a frame, DN", more, 2.0 * angle.cos() + 0.5 * angle.sin(), 1e-9);
-    }
-}
-
-/// At 1 m all pixels have 600 DN of constant light: more than a tenth of full scale, and less than a fifth.
-fn background_light_suppression(make: Make, findings: &mut Findings) {
-    for (threshold, share) in [(0.1, 1.0), (0.15, 0.5), (0.2, 0.0)] {
-        let settings = [("pedestal_dn", 2.0), ("threshold_of_full_scale", threshold)];
-        for frame in 0..4 {
-            let with = still_frame(&[A], make("background_light_suppression", &settings), frame)[0];
-            let more = with - still_frame(&[A], Vec::new(), frame)[0];
-            findings.below("a frame, DN", more - 2.0 * share, 1e-3);
-        }
-    }
-}
-
 type Signature = fn(Make, &mut Findings);
-const SIGNATURES: [(&str, Signature); 20] = [
+const SIGNATURES: [(&str, Signature); 18] = [
     ("correlation_harmonics", harmonics),
     ("phase_step_scale", phase_step_scale),
     ("phase_step_errors", phase_step_errors),
@@ -581,8 +558,6 @@ const SIGNATURES: [(&str, Signature); 20] = [
     ("illumination_baseline", illumination_baseline),
     ("frame_timing_error", frame_timing_error),
     ("radial_axial_distance", radial_axial_distance),
-    ("multi_camera_interference", multi_camera_interference),
-    ("background_light_suppression", background_light_suppression),
 ];
 
 fn findings(signature: Signature, make: Make) -> Vec<String> {

@@ -140,7 +140,7 @@ enum Grouping {
 
 /// Effects whose values need not be the same in all recordings: their parameters belong to frames of a set, their phase or their clock starts
 /// anew. Each is tried in all these ways.
-const GROUPINGS: [(&str, &[Grouping]); 8] = [
+const GROUPINGS: [(&str, &[Grouping]); 7] = [
     ("ambient_flicker", &[Grouping::All, Grouping::Take]),
     ("phase_step_errors", &[Grouping::Scheme, Grouping::FewFrames]),
     ("frame_gain", &[Grouping::Scheme, Grouping::FewFrames]),
@@ -148,7 +148,6 @@ const GROUPINGS: [(&str, &[Grouping]); 8] = [
     ("illumination_drift", &[Grouping::All, Grouping::Take]),
     ("ambient_drift", &[Grouping::All, Grouping::Take]),
     ("phase_drift", &[Grouping::All, Grouping::Take]),
-    ("multi_camera_interference", &[Grouping::Take]),
 ];
 /// So many frames a set are many.
 const MANY_FRAMES: usize = 16;
@@ -194,14 +193,10 @@ struct Found {
 
 /// Effects whose shape is the period of a line.
 type LineShape = fn(&Series) -> Option<Found>;
-const LINES: [(&str, LineShape); 3] = [
+const LINES: [(&str, LineShape); 2] = [
     (FLICKER, |series| {
         let line = series.in_time(FLICKER_HZ)?;
         Some(Found { shapes: vec![line.frequency], looked: line.looked, own: series.near(line.frequency) })
-    }),
-    ("multi_camera_interference", |series| {
-        let line = series.turning_beat()?;
-        Some(Found { shapes: vec![line.frequency], looked: line.looked, own: Vec::new() })
     }),
     ("encoder_cyclic", |series| {
         let lines = series.in_position();

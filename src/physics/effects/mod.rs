@@ -4,7 +4,6 @@ mod adc_nonlinearity;
 mod ambient_drift;
 mod ambient_flicker;
 mod axial_motion;
-mod background_light_suppression;
 mod charge_crosstalk;
 mod clock_jitter;
 mod correlation_harmonics;
@@ -28,7 +27,6 @@ mod lateral_motion;
 mod lens_scatter;
 mod mixed_pixels;
 mod modulation_frequency_error;
-mod multi_camera_interference;
 mod multipath_interference;
 mod phase_drift;
 mod phase_step_errors;
@@ -83,8 +81,6 @@ pub static EFFECTS: &[&Effect] = &[
     &illumination_baseline::EFFECT,
     &frame_timing_error::EFFECT,
     &radial_axial_distance::EFFECT,
-    &multi_camera_interference::EFFECT,
-    &background_light_suppression::EFFECT,
 ];
 
 /// The effect called `name`.
