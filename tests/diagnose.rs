@@ -254,18 +254,18 @@ fn bad_masks_dead_pixels_and_odd_sets_raise_no_alarm() {
 fn unequal_repeats_and_wrong_readings_change_no_answer() {
     let folder = tempfile::tempdir().unwrap();
     let kept = |recording: usize, set: usize| (37 * recording + 11 * set + set * set / 7) % 3 != 1;
-    for (effects, expected) in [(&[][..], &[][..]), (&["image_lag"][..], &["image_lag"][..])] {
-        let thinned = campaign(folder.path(), &format!("{}", effects.len()), effects, "31");
+    for effects in [&[][..], &["image_lag"]] {
+        let thinned = campaign(folder.path(), &effects.len().to_string(), effects, "31");
         thin_out(&thinned, kept);
         rewrite_recordings(&thinned, |number, recording| {
-            let wrong = recording.sets.iter_mut().skip(7).step_by(29);
-            wrong
-                .filter(|_| number % 3 == 0)
-                .for_each(|set| set.position_m = set.position_m.map(|m| m + 0.2));
+            if number.is_multiple_of(3) {
+                let wrong = recording.sets.iter_mut().skip(7).step_by(29);
+                wrong.for_each(|set| set.position_m = set.position_m.map(|m| m + 0.2));
+            }
         });
         let found = verdict(&thinned);
-        assert_eq!(names(&found), expected, "{found:#}");
-        assert_eq!(found["verdict"], if expected.is_empty() { "clean" } else { "explained" });
+        assert_eq!(names(&found), effects, "{found:#}");
+        assert_eq!(found["verdict"], if effects.is_empty() { "clean" } else { "explained" });
         // Readings so far off belong to sets that are left out, and are counted.
         assert!(found["provenance"]["sets_left_out"].as_u64().unwrap() > 3, "{found:#}");
     }

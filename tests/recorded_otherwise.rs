@@ -6,27 +6,15 @@ mod rewritten;
 use diagnosed::{names, parameter, simulated, verdict};
 use rewritten::rewrite_recordings;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-
-fn campaign(folder: &Path, recordings: &str) -> PathBuf {
-    simulated(folder.join("campaign"), &["--size", "14x12", "--seed", "43", "--recordings", recordings])
-}
+use std::path::Path;
 
 /// What is said of a clean campaign that `change` has changed.
 fn verdict_of(recordings: &str, change: impl Fn(&Path)) -> Value {
     let folder = tempfile::tempdir().unwrap();
-    let campaign = campaign(folder.path(), recordings);
+    let options = ["--size", "14x12", "--seed", "43", "--recordings", recordings];
+    let campaign = simulated(folder.path().join("campaign"), &options);
     change(&campaign);
     verdict(&campaign)
-}
-
-/// Its one effect is `name`, which explains all, with this number as it is.
-fn is_explained(verdict: &Value, name: &str, key: &str, expected: f64) {
-    assert_eq!(names(verdict), [name], "{verdict:#}");
-    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
-    let (value, sigma) = parameter(verdict, key);
-    assert!((value - expected).abs() < 4.0 * sigma, "{key}: {value} +- {sigma}, not {expected}");
-    assert!(sigma < 0.1 * expected.abs(), "{key}: {value} +- {sigma}");
 }
 
 #[test]
@@ -34,7 +22,10 @@ fn frames_that_follow_more_slowly_than_is_recorded_are_a_timing_error() {
     let verdict = verdict_of("four-motion,wdft-motion", |campaign| {
         rewrite_recordings(campaign, |_, recording| recording.frame_period_s /= 1.05);
     });
-    is_explained(&verdict, "frame_timing_error", "relative", 0.05);
+    assert_eq!(names(&verdict), ["frame_timing_error"], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    let (value, sigma) = parameter(&verdict, "relative");
+    assert!((value - 0.05).abs() < 4.0 * sigma && sigma < 0.005, "{value} +- {sigma}");
 }
 
 #[test]
