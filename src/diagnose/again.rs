@@ -153,6 +153,8 @@ mod tests {
                     phase: (1e8 * error, 1e8),
                     time: (0.0, 0.0),
                     shared: 0.0,
+                    take: 0,
+                    time_s: (4 * set) as f64 + number as f64,
                     set: set as usize,
                     number: (number, 4),
                     velocity_m_s: 2.0,

@@ -187,7 +187,7 @@ impl Clusters {
             }
         }
         let Whitened { roots, residual, set, .. } = *whitened;
-        self.jitters.add(Frame::seen(frame, roots, residual, set, &moment));
+        self.jitters.add(Frame::seen(frame, roots, residual, (whitened.take, set), &moment));
         if (whitened.index + 1).is_multiple_of(take.frames) {
             let sums = std::mem::take(&mut self.set);
             // Without its light the camera has neither gain nor phase.

@@ -16,6 +16,10 @@ pub struct Frame {
     pub time: (f64, f64),
     /// Information that both share.
     pub shared: f64,
+    /// Its recording.
+    pub take: usize,
+    /// When it was taken, s.
+    pub time_s: f64,
     /// Number of its set, among all that are looked at together.
     pub set: usize,
     /// Its own number within the set, and how many frames that has.
@@ -64,19 +68,21 @@ fn ln_step(kind: usize) -> f64 {
 }
 
 impl Frame {
-    /// What the residuals of the frame of a `set` that was taken at a `moment`, whitened with the `roots` of their weights, say of both.
+    /// What the residuals of the frame of a recording and set (`take`, `set`) that was taken at a `moment`, whitened with the `roots` of their weights, say of both.
     pub fn seen(
         frame: &columns::Frame,
         roots: &[f64],
         residuals: &[f64],
-        set: usize,
+        (take, set): (usize, usize),
         moment: &Moment,
     ) -> Self {
-        let &Moment { velocity_m_s, position_m, offset_rad, frame: number, frames, .. } = moment;
+        let &Moment { velocity_m_s, position_m, offset_rad, frame: number, frames, time_s, .. } = moment;
         let mut seen = Self {
             phase: (0.0, 0.0),
             time: (0.0, 0.0),
             shared: 0.0,
+            take,
+            time_s,
             set,
             number: (number, frames),
             velocity_m_s,
@@ -217,6 +223,8 @@ mod tests {
                 phase: (PHASE * off, PHASE * PHASE),
                 time: (by_time * off, by_time * by_time),
                 shared: PHASE * by_time,
+                take: 0,
+                time_s: number as f64,
                 set: 0,
                 number: (0, 1),
                 velocity_m_s: 1.0,
@@ -259,6 +267,8 @@ mod tests {
     fn evidence_is_the_integral_over_both_errors() {
         let (phase, time, shared) = ((1.3, 2.0), (-0.4, 1.5), 0.7);
         let frame = Frame {
+            take: 0,
+            time_s: 0.0,
             set: 0,
             number: (0, 1),
             velocity_m_s: 1.0,

@@ -39,6 +39,7 @@ mod held_out_row;
 mod hops;
 mod images;
 mod in_order;
+mod in_time;
 mod included;
 mod inverse;
 mod jitters;

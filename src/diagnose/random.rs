@@ -3,6 +3,7 @@
 use super::again::{self, Said};
 use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
+use super::in_time::{is_line, is_of_few};
 use super::jitters::Frame;
 use super::location::{Located, Location};
 use super::set_errors::Jitter;
@@ -163,6 +164,15 @@ fn is_most(columns: f64, numbers: usize, ln_bayes: f64, frames: f64) -> bool {
     columns > (ORDERED_MOST + (1.0 - ORDERED_MOST) * by_chance) * ln_bayes
 }
 
+/// Score and information of a frame, of each of [`JITTERS`].
+const SAID: [Said; 2] = [|frame| frame.phase, |frame| frame.time];
+
+/// Whether errors of a `kind` of [`JITTERS`], which scatter by `sigma`, are new in each frame: neither steady, nor a line in time, nor those of a few frames.
+fn is_new_in_each(location: &Location, kind: usize, sigma: f64) -> bool {
+    let (jitters, of) = (&location.jitters, SAID[kind]);
+    !is_steady(jitters, kind, sigma) && !is_line(jitters, of, sigma) && !is_of_few(jitters, of, sigma)
+}
+
 /// Both jitters, where frames show the other one, too, beside the `first`: more clearly than anything orders them.
 pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEffect; 2]> {
     let number = JITTERS.iter().position(|name| *name == first.name)?;
@@ -176,7 +186,7 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
     let least = SECOND.0 * first.ln_bayes + SECOND.1 + ordered(location, first.inflation, first.inflation);
     let other = 1 - number;
     let is_clear = both.beside.iter().all(|nats| *nats > least)
-        && !is_steady(&location.jitters, other, both.strengths[other].value);
+        && is_new_in_each(location, other, both.strengths[other].value);
     is_clear.then(|| [of(number, first.ln_bayes), of(other, both.beside[other])])
 }
 
@@ -193,7 +203,7 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     }
     let name = effect_of(first)?;
     let kind = JITTERS.iter().position(|jitter| *jitter == name)?;
-    if is_steady(&location.jitters, kind, sigma) {
+    if !is_new_in_each(location, kind, sigma) {
         return None;
     }
     Some(RandomEffect { name, strength: Strength { value: sigma, sigma: known_to }, ln_bayes, inflation })
@@ -230,9 +240,8 @@ pub fn may_be_of_light(location: &Location, random: &RandomEffect) -> bool {
 
 /// Evidence for a jitter of the registry from how frames differ where the target is again, nats.
 pub fn new_each_time(location: &Location, name: &str) -> f64 {
-    let of: [Said; 2] = [|frame| frame.phase, |frame| frame.time];
     let number = JITTERS.iter().position(|jitter| *jitter == name);
-    number.map_or(0.0, |number| again::new_each_time(&location.jitters, of[number]))
+    number.map_or(0.0, |number| again::new_each_time(&location.jitters, SAID[number]))
 }
 
 /// The coordinate of a verdict in which errors that samples share are located.

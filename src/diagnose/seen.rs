@@ -105,7 +105,7 @@ pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set:
         if by.has_jitters() {
             let frame = tangents.frame(number, index);
             let moment = &take.moments[index];
-            seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, 0, moment));
+            seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, (number, 0), moment));
         }
         let weight = weight(take, frame);
         let (mut sum_dn, mut samples) = (0.0, 0);

@@ -127,6 +127,8 @@ mod tests {
                     phase: nothing,
                     time,
                     shared: 0.0,
+                    take: 0,
+                    time_s: (set * FRAMES + number.0) as f64,
                     set,
                     number,
                     velocity_m_s,
