@@ -228,7 +228,7 @@ fn the_registry_holds_each_effect_once() {
                  phase_step_errors phase_drift clock_jitter demodulation_skew modulation_frequency_error intensity_nonlinearity saturation \
                  image_lag charge_crosstalk tap_mismatch adc_nonlinearity intensity_related_phase electrical_crosstalk \
                  encoder_scale encoder_cyclic frame_gain timing_jitter_of_frames lateral_motion excess_noise fixed_point \
-                 response_decay encoder_offset illumination_baseline frame_timing_error radial_axial_distance";
+                 response_decay encoder_offset illumination_baseline frame_timing_error radial_axial_distance multi_camera_interference";
     let registry: Vec<&str> = EFFECTS.iter().map(|effect| effect.name).collect();
     assert_eq!(registry, names.split_whitespace().collect::<Vec<_>>());
 }

@@ -538,8 +538,19 @@ fn radial_axial_distance(make: Make, findings: &mut Findings) {
     findings.about("phase", more, phase_rad(0.03, 30e6), 1e-9);
 }
 
+/// What is seen of the other camera turns with the phase steps, and the other way round with the beat.
+fn multi_camera_interference(make: Make, findings: &mut Findings) {
+    let other =
+        || make("multi_camera_interference", &[("cosine_dn", 2.0), ("sine_dn", 0.5), ("beat_hz", 3.0)]);
+    for frame in 0..4 {
+        let more = still_frame(&[A], other(), frame)[0] - still_frame(&[A], Vec::new(), frame)[0];
+        let angle = frame as f64 * (FRAC_PI_2 - TAU * 3.0 * PERIOD_S);
+        findings.about("a frame, DN", more, 2.0 * angle.cos() + 0.5 * angle.sin(), 1e-9);
+    }
+}
+
 type Signature = fn(Make, &mut Findings);
-const SIGNATURES: [(&str, Signature); 18] = [
+const SIGNATURES: [(&str, Signature); 19] = [
     ("correlation_harmonics", harmonics),
     ("phase_step_scale", phase_step_scale),
     ("phase_step_errors", phase_step_errors),
@@ -558,6 +569,7 @@ const SIGNATURES: [(&str, Signature); 18] = [
     ("illumination_baseline", illumination_baseline),
     ("frame_timing_error", frame_timing_error),
     ("radial_axial_distance", radial_axial_distance),
+    ("multi_camera_interference", multi_camera_interference),
 ];
 
 fn findings(signature: Signature, make: Make) -> Vec<String> {

@@ -1,8 +1,8 @@
 //! Beats: modulated light that is not the camera's own, and so is a line in time whose phase follows the phase steps.
 
 use super::lamps::MAINS_OFF;
-use super::lines::{CLEARLY_MORE, Line, Series, most_between};
-use super::periodogram::{ANY, Scan, greatest};
+use super::lines::{CLEARLY_MORE, DRIFT_CYCLES, Line, Series, most_between};
+use super::periodogram::{ANY, Scan, greatest, longest};
 
 impl Series {
     /// The strongest beat, Hz: its phase goes with the phase that is commanded, it has a beginning of its own in every recording, and any
@@ -23,6 +23,12 @@ impl Series {
             chi2: *scan.powers.get(best)?,
             looked: scan.powers.len() as f64,
         })
+    }
+
+    /// The strongest beat, if it turns in the longest recording: what does not is the phasor of a crosstalk, or the drift of one.
+    pub fn turning_beat(&self) -> Option<Line> {
+        let longest_s = longest(&self.by_take());
+        self.beat().filter(|beat| beat.frequency.abs() * longest_s > DRIFT_CYCLES)
     }
 
     /// The strongest beat, Hz, if it explains clearly more than a line of the ambient light that is near `frequency_hz`; noise has `inflation` times the variance

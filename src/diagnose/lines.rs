@@ -65,7 +65,7 @@ const CYCLES_M: (f64, f64) = (0.6, 250.0);
 /// grid have of some, would take the readings' own noise back out, by a slope of -1.
 const OF_ENCODER: Sought = Sought { constant: true, steepest: 0.3, most_alike: 0.5 };
 /// Of a line that is seen nearly at rest, so many cycles from frame to frame, all added up, are a drift too.
-const DRIFT_CYCLES: f64 = 3.0;
+pub const DRIFT_CYCLES: f64 = 3.0;
 /// The same where the line is twice the mains' frequency, which is known beforehand.
 pub const MAINS_DRIFT_CYCLES: f64 = 1.5;
 

@@ -140,7 +140,7 @@ enum Grouping {
 
 /// Effects whose values need not be the same in all recordings: their parameters belong to frames of a set, their phase or their clock starts
 /// anew. Each is tried in all these ways.
-const GROUPINGS: [(&str, &[Grouping]); 7] = [
+const GROUPINGS: [(&str, &[Grouping]); 8] = [
     ("ambient_flicker", &[Grouping::All, Grouping::Take]),
     ("phase_step_errors", &[Grouping::Scheme, Grouping::FewFrames]),
     ("frame_gain", &[Grouping::Scheme, Grouping::FewFrames]),
@@ -148,6 +148,7 @@ const GROUPINGS: [(&str, &[Grouping]); 7] = [
     ("illumination_drift", &[Grouping::All, Grouping::Take]),
     ("ambient_drift", &[Grouping::All, Grouping::Take]),
     ("phase_drift", &[Grouping::All, Grouping::Take]),
+    ("multi_camera_interference", &[Grouping::Take]),
 ];
 /// So many frames a set are many.
 const MANY_FRAMES: usize = 16;
@@ -193,10 +194,14 @@ struct Found {
 
 /// Effects whose shape is the period of a line.
 type LineShape = fn(&Series) -> Option<Found>;
-const LINES: [(&str, LineShape); 2] = [
+const LINES: [(&str, LineShape); 3] = [
     (FLICKER, |series| {
         let line = series.in_time(FLICKER_HZ)?;
         Some(Found { shapes: vec![line.frequency], looked: line.looked, own: series.near(line.frequency) })
+    }),
+    ("multi_camera_interference", |series| {
+        let line = series.turning_beat()?;
+        Some(Found { shapes: vec![line.frequency], looked: line.looked, own: Vec::new() })
     }),
     ("encoder_cyclic", |series| {
         let lines = series.in_position();
@@ -355,7 +360,9 @@ fn pieces(
                 Grouping::All => !effect.parameters[number].is_of_recording,
                 Grouping::Take => true,
             };
-            let free = strengths.iter().copied().filter(there).collect();
+            let is_taken =
+                |&number: &usize| effect.parameters[number].frame.is_none_or(|frame| frame < frames);
+            let free = strengths.iter().copied().filter(there).filter(is_taken).collect();
             let included = included_of(data, effect, &takes);
             Piece { effect, values: values.to_vec(), free, takes, finite: false, included }
         })
@@ -366,4 +373,25 @@ fn pieces(
 pub fn active(pieces: &[Piece], take: usize) -> Vec<Active> {
     let here = pieces.iter().filter(|piece| piece.takes.contains(&take));
     here.map(|piece| Active { effect: piece.effect, values: piece.values.clone() }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::taken;
+    use crate::frames::Geometry;
+
+    #[test]
+    fn frames_that_no_recording_has_have_no_numbers() {
+        let size = Geometry { width: 4, height: 3 };
+        let most = |recordings: &[&str]| {
+            let data = Data::of(&taken(size, 2, &[], recordings).unwrap(), Vec::new()).unwrap();
+            let all = candidates(&data, &Series::default());
+            let timing = all.iter().find(|candidate| candidate.effect.name == "frame_timing_error").unwrap();
+            let free = timing.variants.iter().flat_map(|variant| &variant.pieces[0].free);
+            free.filter_map(|&number| timing.effect.parameters[number].frame).max()
+        };
+        assert_eq!(most(&["four-motion"]), Some(3));
+        assert_eq!(most(&["four-motion", "wdft-rail"]), Some(4));
+    }
 }

@@ -25,6 +25,8 @@ pub struct Parameter {
     pub is_instead: bool,
     /// A strength that only matters where each recording has its own: off as a rule.
     pub is_of_recording: bool,
+    /// The only frame of each set on which it acts, if it is one: recordings of fewer frames have none of it.
+    pub frame: Option<usize>,
     /// How far from 0 it may be at most, in full scales; infinite where that does not matter.
     pub most_full_scales: f64,
 }
@@ -48,6 +50,7 @@ impl Parameter {
             is_choice: false,
             is_instead: false,
             is_of_recording: false,
+            frame: None,
             most_full_scales: f64::INFINITY,
         }
     }
@@ -62,6 +65,12 @@ impl Parameter {
     #[must_use]
     pub const fn of_recording(self) -> Self {
         Self { is_of_recording: true, ..self }
+    }
+
+    /// The same of one frame of each set.
+    #[must_use]
+    pub const fn of_frame(self, frame: usize) -> Self {
+        Self { frame: Some(frame), ..self }
     }
 
     /// The same of a code, with at most so many full scales.

@@ -2,8 +2,8 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
 
-const fn late(name: &'static str) -> Parameter {
-    Parameter::strength(name, "s", 0.0, (-0.02, 0.02), 1e-3).instead()
+const fn late(frame: usize, name: &'static str) -> Parameter {
+    Parameter::strength(name, "s", 0.0, (-0.02, 0.02), 1e-3).instead().of_frame(frame)
 }
 
 /// By how much, relatively, frames of a set follow each other more slowly than the frame period; or by how much single frames after the first one are late, the same in every set,
@@ -16,13 +16,13 @@ pub static EFFECT: Effect = Effect {
     reference: "t_n -> (1 + eps) t_n, or t_n + tau_n; rolling shutter: t + row / rows tau",
     parameters: &[
         Parameter::strength("relative", "1", 0.0, (-0.5, 0.5), 0.02),
-        late("frame_1_s"),
-        late("frame_2_s"),
-        late("frame_3_s"),
-        late("frame_4_s"),
-        late("frame_5_s"),
-        late("frame_6_s"),
-        late("frame_7_s"),
+        late(1, "frame_1_s"),
+        late(2, "frame_2_s"),
+        late(3, "frame_3_s"),
+        late(4, "frame_4_s"),
+        late(5, "frame_5_s"),
+        late(6, "frame_6_s"),
+        late(7, "frame_7_s"),
         Parameter::strength("over_rows_s", "s", 0.0, (-0.05, 0.05), 2e-3).instead(),
     ],
     place: Place::Clock,

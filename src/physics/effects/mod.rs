@@ -27,6 +27,7 @@ mod lateral_motion;
 mod lens_scatter;
 mod mixed_pixels;
 mod modulation_frequency_error;
+mod multi_camera_interference;
 mod multipath_interference;
 mod phase_drift;
 mod phase_step_errors;
@@ -81,6 +82,7 @@ pub static EFFECTS: &[&Effect] = &[
     &illumination_baseline::EFFECT,
     &frame_timing_error::EFFECT,
     &radial_axial_distance::EFFECT,
+    &multi_camera_interference::EFFECT,
 ];
 
 /// The effect called `name`.

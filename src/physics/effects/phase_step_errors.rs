@@ -83,7 +83,7 @@ pub static EFFECT: Effect = Effect {
     place: Place::Clock,
     chance: Chance::None,
     looks_back: false,
-    fidelity: Fidelity::Approximate,
+    fidelity: Fidelity::Exact,
     act: Act::Code(act),
 };
 

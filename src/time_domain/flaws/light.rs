@@ -15,6 +15,14 @@ pub const MECHANISMS: &[Mechanism] = &[
     Mechanism::known("illumination_baseline", "m", 0.05, 0.25, Hook::Ray(illumination_baseline), 'e'),
     Mechanism::known("intensity_related_phase", "rad", 0.01, 0.5, Hook::Ray(intensity_related_phase), 'i'),
     Mechanism::known("electrical_crosstalk", "DN", 1.0, 100.0, Hook::Ray(electrical_crosstalk), 'a'),
+    Mechanism::known(
+        "multi_camera_interference",
+        "DN",
+        2.0,
+        200.0,
+        Hook::Ray(multi_camera_interference),
+        'a',
+    ),
 ];
 
 /// Order and phase (rad) of a ringing.
@@ -117,4 +125,13 @@ pub fn coupled_rad(flaw: &Flaw) -> f64 {
 /// The laser driver's current couples into the read-out, with or without light.
 fn electrical_crosstalk(flaw: &Flaw, moment: &Moment, _: &Scene, ray: &mut Ray) {
     ray.extra_e += coupled_e(flaw) * (moment.gate_rad - coupled_rad(flaw)).cos();
+}
+
+/// Another camera's light beats with this one's gate.
+fn multi_camera_interference(flaw: &Flaw, moment: &Moment, scene: &Scene, ray: &mut Ray) {
+    let beat_hz = flaw.draw(0, 0.15, 2.0);
+    let across = ray.column as f64 / scene.geometry.width as f64 - 0.5;
+    let lit = 1.0 + 0.6 * flaw.draw(1, -1.0, 1.0) * across;
+    let phase_rad = moment.gate_rad - TAU * (beat_hz * moment.time_s + flaw.draws[2]);
+    ray.extra_e += 10.0 * flaw.size * lit * phase_rad.cos();
 }

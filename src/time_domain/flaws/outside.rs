@@ -10,14 +10,6 @@ pub const MECHANISMS: &[Mechanism] = &[
     Mechanism::outside("row_banding", "DN", 1.0, 200.0, Hook::Code(row_banding), &["row"]),
     Mechanism::outside("slow_columns", "rad", 0.05, 1.5, Hook::Ray(slow_columns), &["column", "amplitude"]),
     Mechanism::outside("code_glitch", "DN", 5.0, 200.0, Hook::Code(code_glitch), &["code"]),
-    Mechanism::outside(
-        "second_camera",
-        "DN",
-        2.0,
-        200.0,
-        Hook::Ray(second_camera),
-        &["time_s", "frame", "set"],
-    ),
     Mechanism::outside("alternating_gain", "1", 0.01, 0.3, Hook::Clock(alternating_gain), &["set"]),
     Mechanism::outside("breathing_phase", "rad", 0.01, 0.5, Hook::Clock(breathing_phase), &["time_s", "set"]),
     Mechanism::outside("post_in_the_beam", "1", 0.05, 0.9, Hook::Ray(post_in_the_beam), &["position_m"]),
@@ -57,15 +49,6 @@ fn code_glitch(flaw: &Flaw, _: &Moment, _: &World, _: usize, code: f64) -> f64 {
     let period = [64.0, 128.0][flaw.draw(0, 0.0, 1.999) as usize];
     let place = (code / period + flaw.draws[1]).fract();
     code + if place < 0.25 { flaw.size } else { 0.0 }
-}
-
-/// Another camera's light beats with this one's gate.
-fn second_camera(flaw: &Flaw, moment: &Moment, scene: &Scene, ray: &mut Ray) {
-    let beat_hz = flaw.draw(0, 0.15, 2.0);
-    let across = ray.column as f64 / scene.geometry.width as f64 - 0.5;
-    let lit = 1.0 + 0.6 * flaw.draw(1, -1.0, 1.0) * across;
-    let phase_rad = moment.gate_rad - TAU * (beat_hz * moment.time_s + flaw.draws[2]);
-    ray.extra_e += 10.0 * flaw.size * lit * phase_rad.cos();
 }
 
 /// Two capacitors take turns: every other set has another gain.
