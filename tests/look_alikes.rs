@@ -272,18 +272,21 @@ fn gains_of_few_frames_are_named_beside_many_frames() {
 
 /// Light that falls evenly: a far drift, of which tangents promise more than a fit keeps, is not outvoted by the columns of time.
 #[test]
+#[ignore = "minutes: make slow"]
 fn a_drift_that_goes_on_evenly_is_a_drift() {
     assert_eq!(names_of("illumination_drift:relative=0.5,time_constant_s=700"), ["illumination_drift"]);
 }
 
 /// Charge that wanders along rows alone: what mixed pixels at two sides do, but on both sides of the edge alike.
 #[test]
+#[ignore = "minutes: make slow"]
 fn charge_that_wanders_along_rows_is_no_mixed_pixel() {
     assert_eq!(names_of("charge_crosstalk:from_beside=0.005"), ["charge_crosstalk"]);
 }
 
 /// A strong phase by one over the amplitude is that form of it, and neither its logarithm nor the frequency error that is nearly the same.
 #[test]
+#[ignore = "minutes: make slow"]
 fn a_phase_by_amplitude_is_alone() {
     assert_eq!(
         names_of("intensity_related_phase:rad_a_factor_e=0.01,exponent=-1"),
@@ -326,6 +329,7 @@ fn a_converters_s_is_told_or_said_to_be_possible() {
 
 /// What bends the codes by less than a bow over all that is seen is a response: that of the pixels is usual, one of the converter is not.
 #[test]
+#[ignore = "minutes: make slow"]
 fn a_response_that_bends_is_no_converters_error() {
     let bent: [fn(f64) -> f64; 3] = [
         |signal_dn| signal_dn + 8e-6 * signal_dn * signal_dn,

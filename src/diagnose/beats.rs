@@ -1,8 +1,17 @@
 //! Beats: modulated light that is not the camera's own, and so is a line in time whose phase follows the phase steps.
 
+use super::evidence::Greatest;
 use super::lamps::MAINS_OFF;
 use super::lines::{CLEARLY_MORE, DRIFT_CYCLES, Line, Series, most_between};
-use super::periodogram::{ANY, Scan, greatest, longest};
+use super::periodogram::{ANY, FINENESS, Scan, chi2, greatest, longest};
+
+/// Of what frames are off by in offset, beyond the noise, a beat that is looked at explains at least this share: it may be there beside something greater, and is looked at
+/// again when that is named.
+const LEAST_SHARE: f64 = 0.1;
+/// Products of frequencies and frames that are looked at, at most.
+const MOST_PRODUCTS: f64 = 1e9;
+/// Numbers of a beat in a recording: cosine and sine.
+const NUMBERS: usize = 2;
 
 impl Series {
     /// The strongest beat, Hz: its phase goes with the phase that is commanded, it has a beginning of its own in every recording, and any
@@ -14,7 +23,8 @@ impl Series {
             frames.map(|frame| -frame.turns).collect()
         };
         let turns: Vec<Vec<f64>> = (0..takes.len()).map(of_take).collect();
-        let most_hz = 0.5 / self.frame_period_s;
+        let products = self.frames.len() as f64 * 2.0 * FINENESS * longest(&takes);
+        let most_hz = (0.5 / self.frame_period_s).min(MOST_PRODUCTS / products);
         let is_some = most_hz.is_finite() && most_hz > 0.0;
         let scan = is_some.then(|| Scan::turned(&takes, &turns, (-most_hz, most_hz), ANY)).flatten()?;
         let best = greatest(&scan.powers);
@@ -25,10 +35,18 @@ impl Series {
         })
     }
 
-    /// The strongest beat, if it turns in the longest recording: what does not is the phasor of a crosstalk, or the drift of one.
+    /// The strongest beat, if it turns in the longest recording (what does not is the phasor of a crosstalk, or the drift of one, and is named first: where frames are not evenly
+    /// apart in time it has images that turn), and is seen above the noise and what else is there.
     pub fn turning_beat(&self) -> Option<Line> {
-        let longest_s = longest(&self.by_take());
-        self.beat().filter(|beat| beat.frequency.abs() * longest_s > DRIFT_CYCLES)
+        let takes = self.by_take();
+        let longest_s = longest(&takes);
+        let beyond_noise: f64 = takes.iter().map(|take| chi2(take) - take.len() as f64).sum();
+        self.beat().filter(|beat| {
+            let found = Greatest::of(beat.chi2, NUMBERS * takes.len(), beat.looked);
+            beat.frequency.abs() * longest_s > DRIFT_CYCLES
+                && beat.chi2 > LEAST_SHARE * beyond_noise
+                && found.ln_bayes > 0.0
+        })
     }
 
     /// The strongest beat, Hz, if it explains clearly more than a line of the ambient light that is near `frequency_hz`; noise has `inflation` times the variance
@@ -85,5 +103,17 @@ mod tests {
         assert!(series(&lamp).beats_more(100.3, 1.0).is_none());
         let seen = series(&|time_s, turns| (TAU * (turns - 0.7 * time_s + 0.2)).cos()).beats_more(100.3, 1.0);
         assert!(seen.is_some_and(|beat| (beat.frequency - 0.7).abs() < 0.02), "{seen:?}");
+    }
+
+    #[test]
+    fn a_beat_that_is_looked_at_turns_and_stands_above_the_rest() {
+        let seen = |line: &dyn Fn(f64, f64) -> f64| series(line).turning_beat().is_some();
+        let beat = |hz: f64, time_s: f64, turns: f64| (TAU * (turns - hz * time_s + 0.2)).cos();
+        assert!(seen(&|time_s, turns| beat(0.7, time_s, turns)));
+        // Noise, a crosstalk, and a beat beside errors of frames that are ten times as strong.
+        let errors = |time_s: f64| 10.0 * Draws::of((1e4 * time_s) as u64, 9).normal(1)[0];
+        assert!(!seen(&|_, _| 0.0));
+        assert!(!seen(&|time_s, turns| beat(0.0, time_s, turns)));
+        assert!(!seen(&|time_s, turns| beat(0.7, time_s, turns) + errors(time_s)));
     }
 }

@@ -6,7 +6,8 @@ use super::data::Data;
 use super::fit::{Fit, fit};
 use super::noise::Noise;
 use super::pass::DISBELIEF;
-use super::pieces::{Piece, tolerance};
+use super::pieces::Piece;
+use super::tolerated::tolerance;
 
 /// How often a fit is begun anew where the first one was.
 const COMPLETING: usize = 4;

@@ -4,7 +4,8 @@ use super::data::Data;
 use super::fit::{End, Fit, Led, WHOLE, fit, fit_led, fit_until};
 use super::noise::Noise;
 use super::pass::DISBELIEF;
-use super::pieces::{Piece, tolerance};
+use super::pieces::Piece;
+use super::tolerated::tolerance;
 use super::watchdog::ENOUGH;
 use rayon::prelude::*;
 

@@ -4,9 +4,9 @@ use super::data::Data;
 use super::fit::{Fit, fit_below};
 use super::noise::Noise;
 use super::pass::{DISBELIEF, Pass, RIVAL_NATS, SIMPLER_SHARE};
-use super::pieces::{Candidate, tolerance};
+use super::pieces::Candidate;
 use super::search::{Named, UNDESCRIBED};
-use super::tolerated::tolerated;
+use super::tolerated::{tolerance, tolerated};
 
 /// So many are tried in the place of one.
 const MOST: usize = 3;

@@ -5,7 +5,8 @@ use super::completed::NEEDED_NATS;
 use super::evidence::Model;
 use super::fit::Fit;
 use super::pass::{DISBELIEF, Pass, RIVAL_NATS};
-use super::pieces::{Candidate, Piece, tolerance};
+use super::pieces::{Candidate, Piece};
+use super::tolerated::tolerance;
 
 /// A shape that was fitted explains something by chance, too.
 const SHAPE_NATS: f64 = 1.0;

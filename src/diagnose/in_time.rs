@@ -2,7 +2,7 @@
 //! as a jitter to one who sees only how great the errors are, and so does what befalls every tenth set.
 
 use super::again::Said;
-use super::evidence::{Greatest, of_variance};
+use super::evidence::Greatest;
 use super::jitters::{Frame, Jitters};
 use super::lines::strongest;
 use super::periodogram::{FINENESS, Sum, longest, power};
@@ -10,21 +10,26 @@ use std::collections::BTreeMap;
 
 /// Evidence (nats) from which on there is a line beside errors that are random.
 const LINE_NATS: f64 = 5.0;
-/// Of the evidence for random errors a line has this share, to be what they are.
+/// Of what errors have beyond the noise, chi squared, a line explains this share, to be what they are.
 const LINE_SHARE: f64 = 0.5;
+/// A line's numbers in a recording: cosine and sine.
+const NUMBERS: usize = 2;
 /// Cycles over the longest recording from which on it is one.
 const LEAST_CYCLES: f64 = 1.0;
-/// Products of frequencies and frames that are looked at, at most.
+/// Products of frequencies and frames that are looked at, at most: of recordings with very many frames, or that take very long, the lower frequencies.
 const MOST_PRODUCTS: f64 = 2e8;
 
-/// The median of a normal error's square, and by what the median of so many scatters, over the root of their number (of its density there).
-const MEDIAN: (f64, f64) = (0.454_936, 1.061);
 /// Fewer frames do not tell how errors are distributed.
 const LEAST_FRAMES: usize = 100;
-/// By so many standard deviations the fourth power is above that of normal errors,
-const PEAKED: f64 = 6.0;
-/// and the frame in the middle is less than so many above what it is of noise.
-const BEYOND_NOISE: f64 = 2.0;
+/// The shares of all frames that a few may be, and the variance of the few, over what all would have if theirs were spread over all.
+const FEW: [f64; 4] = [0.01, 0.02, 0.05, 0.1];
+const OF_FEW: [f64; 3] = [0.25, 1.0, 4.0];
+/// The variance that all may have besides, over what it is if all have it alone.
+const OF_ALL: [f64; 6] = [0.0625, 0.125, 0.25, 0.5, 1.0, 2.0];
+/// That a few frames have the errors must be so much likelier (nats) than that all have,
+const LIKELIER: f64 = 5.0;
+/// and that all have some besides less than so much likelier than that.
+const BESIDES: f64 = 3.0;
 
 /// Whether most of the errors, of which `of` tells score and information of a frame, and which scatter by `sigma`, is one line in time with a phase of its own in each
 /// recording.
@@ -36,7 +41,7 @@ pub fn is_line(jitters: &Jitters, of: Said, sigma: f64) -> bool {
             periods_s.push(next.time_s - frame.time_s);
         }
     }
-    let evidence: f64 = heard(jitters, of).map(|(_, sum)| of_variance(sigma * sigma, sum.0, sum.1)).sum();
+    let beyond_noise: f64 = heard(jitters, of).map(|(_, (score, k))| score * score / k - 1.0).sum();
     for (frame, sum) in heard(jitters, of) {
         takes.entry(frame.take).or_default().push((frame.time_s, sum));
     }
@@ -57,31 +62,47 @@ pub fn is_line(jitters: &Jitters, of: Said, sigma: f64) -> bool {
         return false;
     }
     let Some(line) = strongest(&random, ends, 0.0) else { return false };
+    let numbers = NUMBERS * takes.len();
     let explained: f64 = takes.iter().map(|take| power(take, line.frequency)).sum();
-    Greatest::of(line.chi2, 2 * takes.len(), line.looked).ln_bayes > LINE_NATS
-        && 0.5 * explained > LINE_SHARE * evidence
+    Greatest::of(line.chi2, numbers, line.looked).ln_bayes > LINE_NATS
+        && explained - numbers as f64 > LINE_SHARE * beyond_noise
 }
 
 /// Whether the errors are those of a few frames, and all others have none.
 pub fn is_of_few(jitters: &Jitters, of: Said, sigma: f64) -> bool {
-    let mut squares = Vec::new();
-    let (mut second, mut fourth) = (0.0, 0.0);
-    for (_, (score, information)) in heard(jitters, of) {
-        let square = score * score / information;
-        let normal = square / (1.0 + sigma * sigma * information);
-        squares.push(square);
-        second += normal;
-        fourth += normal * normal;
-    }
-    if squares.len() < LEAST_FRAMES {
+    let frames: Vec<(f64, f64)> = heard(jitters, of).map(|(_, (score, k))| (score * score / k, k)).collect();
+    if frames.len() < LEAST_FRAMES {
         return false;
     }
-    let count = squares.len() as f64;
-    let kurtosis = count * fourth / (second * second);
-    let is_peaked = kurtosis - 3.0 > PEAKED * (24.0 / count).sqrt();
-    squares.sort_by(f64::total_cmp);
-    let (usual, scatter) = MEDIAN;
-    is_peaked && squares[squares.len() / 2] < usual + BEYOND_NOISE * scatter / count.sqrt()
+    let variance = sigma * sigma;
+    let greatest = |alls: &[f64]| {
+        let of = |&all: &f64| {
+            let few = FEW.iter().flat_map(|&share| OF_FEW.map(|of_few| (share, of_few * variance / share)));
+            few.map(|few| likelihood(&frames, all * variance, few)).fold(f64::NEG_INFINITY, f64::max)
+        };
+        alls.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let of_all = OF_ALL.iter().map(|all| likelihood(&frames, all * variance, (0.0, 0.0)));
+    let of_few = greatest(&[0.0]);
+    of_few > of_all.fold(0.0, f64::max) + LIKELIER && greatest(&OF_ALL) < of_few + BESIDES
+}
+
+/// How much likelier (nats) than noise alone it makes the squares of `frames`, over their noise, and their information, that all have errors of variance `all`, and a share of
+/// them one that is greater by so much.
+fn likelihood(frames: &[(f64, f64)], all: f64, (share, few): (f64, f64)) -> f64 {
+    let ln_normal = |square: f64, variance: f64| -0.5 * (square / variance + variance.ln());
+    let of = |&(square, information): &(f64, f64)| {
+        let of_all = 1.0 + all * information;
+        let usual = ln_normal(square, of_all);
+        let likelier = ln_normal(square, of_all + few * information) - usual;
+        // Of a frame that is far off the exponential would be infinite.
+        let by_few = match likelier > 30.0 {
+            true => likelier + share.ln(),
+            false => (share * likelier.exp_m1()).ln_1p(),
+        };
+        usual + by_few.max(f64::MIN) - ln_normal(square, 1.0)
+    };
+    frames.iter().map(of).sum()
 }
 
 /// The frames that say something.
@@ -138,54 +159,63 @@ mod tests {
     fn a_tone_is_a_line_and_a_jitter_is_none() {
         for seed in 0..20 {
             assert!(is_line(&phases(seed, |take, time_s, _| line(take, time_s)), of, SIGMA), "{seed}");
-            for size in [0.3, 1.0, 10.0] {
+            for size in [0.05, 0.3, 1.0, 10.0] {
                 assert!(
                     !is_line(&phases(seed, |_, _, draw| size * SIGMA * draw), of, size * SIGMA),
                     "{seed}"
                 );
             }
         }
-        // A tone of a fourth of a jitter's size is not what it is.
-        let both = |take, time_s, draw| SIGMA * draw + 0.25 * line(take, time_s);
-        assert!(!is_line(&phases(3, both), of, 1.03 * SIGMA));
+        // A jitter beside a tone of a third of its variance is one, and so is one of which frames of a set share an error of the reading.
+        let both = |take, time_s, draw| SIGMA * draw + 0.577 * line(take, time_s);
+        let read =
+            |take: usize, time_s: f64| Draws::of(take as u64, (time_s / 0.13).floor() as u64).normal(1)[0];
+        for seed in 0..20 {
+            assert!(!is_line(&phases(seed, both), of, 1.15 * SIGMA), "{seed}");
+            let shared = phases(seed, |take, time_s, draw| SIGMA * (draw + read(take, time_s)));
+            assert!(!is_line(&shared, of, 1.4 * SIGMA), "{seed}");
+        }
         assert!(!is_line(&Jitters::default(), of, SIGMA));
+    }
+
+    /// Frames of which this share is hit.
+    fn hit(seed: u64, share: f64, size: f64, error: impl Fn(f64) -> f64) -> Jitters {
+        let every = (1.0 / share) as usize;
+        let is_hit = |time_s: f64| ((time_s / 0.02).round() as usize * 7).is_multiple_of(every);
+        phases(seed, |_, time_s, draw| error(draw) + if is_hit(time_s) { size * SIGMA } else { 0.0 })
+    }
+
+    fn scatter(jitters: &Jitters) -> f64 {
+        let squares = jitters.frames().iter().map(|frame| (frame.phase.0 / INFORMATION).powi(2));
+        let variance = squares.sum::<f64>() / jitters.frames().len() as f64 - SIGMA * SIGMA;
+        variance.max(0.01 * SIGMA * SIGMA).sqrt()
     }
 
     #[test]
     fn errors_of_a_few_frames_are_no_jitter() {
-        let glitch = |_: usize, time_s: f64, _: f64| {
-            // The first frame of every eleventh set: 2 in 100.
-            if (time_s / 0.13).fract() < 0.1 && ((time_s / 0.13) as usize).is_multiple_of(11) {
-                5.0 * SIGMA
-            } else {
-                0.0
-            }
-        };
         for seed in 0..20 {
-            let few = phases(seed, glitch);
-            let variance =
-                few.frames().iter().map(|frame| (frame.phase.0 / INFORMATION).powi(2)).sum::<f64>()
-                    / few.frames().len() as f64;
-            assert!(is_of_few(&few, of, (variance - SIGMA * SIGMA).sqrt()), "{seed}");
-            for size in [0.3, 1.0, 10.0] {
-                assert!(
-                    !is_of_few(&phases(seed, |_, _, draw| size * SIGMA * draw), of, size * SIGMA),
-                    "{seed}"
-                );
+            for share in [0.02, 0.05, 0.1] {
+                let few = hit(seed, share, 6.0, |_| 0.0);
+                assert!(is_of_few(&few, of, scatter(&few)), "{seed} {share}");
             }
-            // A jitter beside which a few frames are far off is one.
-            let beside = phases(seed, |take, time_s, draw| SIGMA * draw + 2.0 * glitch(take, time_s, draw));
-            assert!(!is_of_few(&beside, of, 1.5 * SIGMA), "{seed}");
+            for size in [0.3, 1.0, 10.0] {
+                let jitter = phases(seed, |_, _, draw| size * SIGMA * draw);
+                assert!(!is_of_few(&jitter, of, scatter(&jitter)), "{seed} {size}");
+                // Beside one some frames may be far off.
+                let beside = hit(seed, 0.01, 8.0, |draw| size.max(0.6) * SIGMA * draw);
+                assert!(!is_of_few(&beside, of, scatter(&beside)), "{seed} {size}");
+            }
         }
     }
 
-    /// Abramowitz and Stegun (1964), 26.2.17 and 26.2.23: half of all normal errors are within 0.6745 standard deviations.
+    /// By hand: of a frame of square 9 and information 1, errors of variance 8 make the normal density exp(-9 / 18) / 3 over exp(-9 / 2).
     #[test]
-    fn the_median_is_that_of_normal_errors() {
-        let (usual, scatter) = MEDIAN;
-        let root = usual.sqrt();
-        assert!((libm::erf(root / 2f64.sqrt()) - 0.5).abs() < 1e-6);
-        let density = (-0.5 * usual).exp() / (TAU * usual).sqrt();
-        assert!((0.5 / density - scatter).abs() < 1e-3, "{}", 0.5 / density);
+    fn the_likelihood_is_that_of_a_mixture() {
+        let frame = [(9.0, 1.0)];
+        let of_all = 4.0 - 3f64.ln();
+        assert!((likelihood(&frame, 8.0, (0.0, 0.0)) - of_all).abs() < 1e-12);
+        assert!((likelihood(&frame, 0.0, (0.1, 8.0)) - (0.9 + 0.1 * of_all.exp()).ln()).abs() < 1e-12);
+        let far = likelihood(&[(1e6, 1.0)], 0.0, (0.01, 1e6));
+        assert!((far - (0.5e6 - 0.5 - 1e3f64.ln() + 0.01f64.ln())).abs() < 1e-2, "{far}");
     }
 }

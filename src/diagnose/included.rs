@@ -7,9 +7,9 @@ use super::location::locate;
 use super::mismatch::{Place, places};
 use super::noise::Noise;
 use super::pass::DISBELIEF;
-use super::pieces::tolerance;
 use super::random::{EXCESS_NOISE, JITTERS, RandomEffect};
 use super::set_errors::Jitter;
+use super::tolerated::tolerance;
 use crate::physics::{Active, Effect, effects};
 use std::collections::{BTreeMap, BTreeSet};
 

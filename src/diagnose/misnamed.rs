@@ -6,7 +6,7 @@ use super::gram::{Gram, Whitened};
 use super::hops::{Hop, hop};
 use super::images::alike;
 use super::lamps::{FLICKER, FLICKER_HZ};
-use super::lines::{Line, Series};
+use super::lines::{DRIFT_CYCLES, Line, Series};
 use super::location::Location;
 use super::mismatch::Place;
 use super::noise::Noise;
@@ -34,7 +34,7 @@ pub fn misnamed(
     // Where nothing of the camera is described, overtones may be anything else that is left.
     let waves = || if data.assumed.camera { None } else { no_wave(data, found, baseline, noise) };
     let drifts = || if data.assumed.camera { None } else { no_drift(data, found, noise) };
-    no_lamp(data, found, noise, inflation).or_else(drifts).or_else(waves)
+    no_lamp(data, found, noise, inflation).or_else(|| no_beat(data, found)).or_else(drifts).or_else(waves)
 }
 
 /// Where something changed at once that was taken for a drift.
@@ -113,6 +113,45 @@ fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<M
     let (ln_bayes, chi2, take) = (stands_for(named), named.score, clearest.take);
     let place = Place { coordinate: "time_s", shape, ln_bayes, chi2, looked, take, is_random: false };
     Some(Misnamed { names: vec![FLICKER], place })
+}
+
+/// Another camera's light, by the registry's name.
+const OTHER_CAMERA: &str = "multi_camera_interference";
+
+/// Where something follows the phase steps that was taken for another camera's light, and has not one beat in all recordings, or none that turns.
+fn no_beat(data: &Data, found: &Found) -> Option<Misnamed> {
+    let named = found.named.iter().find(|named| named.name == OTHER_CAMERA)?;
+    let duration_s = |take: usize| {
+        let times_s = || data.takes[take].moments.iter().map(|moment| moment.time_s);
+        times_s().fold(f64::NEG_INFINITY, f64::max) - times_s().fold(f64::INFINITY, f64::min)
+    };
+    let pieces = found.fit.pieces.iter().filter(|piece| piece.effect.name == OTHER_CAMERA);
+    let beats: Vec<(f64, f64)> = pieces
+        .filter_map(|piece| {
+            let longest_s = piece.takes.iter().map(|&take| duration_s(take)).fold(0.0, f64::max);
+            let hz = piece
+                .effect
+                .parameters
+                .iter()
+                .position(|parameter| parameter.is_shape() && !parameter.is_choice)?;
+            Some((piece.values[hz], longest_s))
+        })
+        .collect();
+    let turns = beats.iter().any(|(hz, longest_s)| hz.abs() * longest_s > DRIFT_CYCLES);
+    // A recording knows its frequency to a cycle over its length.
+    let is_same =
+        |(hz, s): &(f64, f64), (other, other_s): &(f64, f64)| (hz - other).abs() * s.min(*other_s) < 1.0;
+    let is_one = beats.iter().all(|one| beats.iter().all(|other| is_same(one, other)));
+    let place = || Place {
+        coordinate: "time_s",
+        shape: "offset, what follows the phase steps and is no beat of one frequency".to_owned(),
+        ln_bayes: stands_for(named),
+        chi2: named.score,
+        looked: 1.0,
+        take: 0,
+        is_random: false,
+    };
+    (!turns || !is_one).then(|| Misnamed { names: vec![OTHER_CAMERA], place: place() })
 }
 
 /// Numbers of a beat cost so many nats each.

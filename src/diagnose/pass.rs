@@ -7,10 +7,11 @@ use super::evidence::{Block, Evidence, Model};
 use super::fit::Fit;
 use super::gram::Gram;
 use super::noise::Noise;
-use super::pieces::{Candidate, Piece, tolerance};
+use super::pieces::{Candidate, Piece};
 use super::power::{Detectable, detectable};
 use super::random::of_name;
 use super::simpler::Simpler;
+use super::tolerated::tolerance;
 use super::tried::Tried;
 use std::collections::BTreeMap;
 

@@ -5,7 +5,7 @@ use super::included::included_of;
 use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
 use super::refined::is_seldom;
-use crate::physics::{Active, EFFECTS, Effect, Fidelity, Parameter};
+use crate::physics::{Active, EFFECTS, Effect, Parameter};
 use crate::recording::BASELINE;
 
 /// An effect at certain values, in some of the recordings.
@@ -174,17 +174,6 @@ const BARELY: f64 = -1e-9;
 /// Effects that differ from pixel to pixel, told from others only where the target is at one place: what changes with the distance differs too.
 pub const OF_ONE_PLACE: [&str; 1] = ["response_decay"];
 
-/// Share of what the effect called `name` explains that its own form may leave; a user's formula is exact.
-pub fn tolerance(name: &str) -> f64 {
-    let known = EFFECTS.iter().find(|effect| effect.name == name);
-    match known.map_or(Fidelity::Exact, |effect| effect.fidelity) {
-        Fidelity::Law => 1e-4,
-        Fidelity::Exact => 0.01,
-        Fidelity::Approximate => 0.04,
-        Fidelity::Loose => 0.08,
-    }
-}
-
 /// A line that was found: shapes that it may have, among how many they were looked for, and its shape in each recording where that may differ.
 struct Found {
     shapes: Vec<f64>,
@@ -231,7 +220,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             effect.is_predicted() && is_seen && !included(effect)
         })
         .map(|effect| {
-            let line = LINES.iter().find(|(name, _)| *name == effect.name).and_then(|(_, line)| line(series));
+            let line = of_effect(&LINES, effect).and_then(|line| line(series));
             let shapes = line.as_ref().map(|line| &line.shapes[..]);
             let mut variants = variants(effect, data, shapes);
             if let Some(line) = &line {
@@ -245,6 +234,11 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             Candidate { effect, looked, variants }
         })
         .collect()
+}
+
+/// What a table has for an effect, if it has it.
+fn of_effect<T: Copy>(table: &[(&str, T)], effect: &Effect) -> Option<T> {
+    table.iter().find(|(name, _)| *name == effect.name).map(|(_, of)| *of)
 }
 
 fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<Variant> {
@@ -268,9 +262,12 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let choice = find(&|parameter| parameter.is_choice);
     let values_of =
         |number: Option<usize>| number.map_or(&[0.0][..], |number| effect.parameters[number].shapes);
-    let (shapes, choices) = (found.unwrap_or(values_of(shape)), values_of(choice));
-    let groupings = GROUPINGS.iter().find(|(name, _)| *name == effect.name);
-    let groupings = groupings.map_or(&[Grouping::All][..], |(_, groupings)| groupings);
+    let (shapes, mut choices) = (found.unwrap_or(values_of(shape)), values_of(choice));
+    let mut groupings = of_effect(&GROUPINGS, effect).map_or(&[Grouping::All][..], |groupings| groupings);
+    // Without a line, what one would do is looked at in its usual way.
+    if found.is_none() && of_effect(&LINES, effect).is_some() {
+        (groupings, choices) = (&[Grouping::All], &choices[..1]);
+    }
     let strengths = |instead: bool| -> Vec<usize> {
         let all = effect.parameters.iter().enumerate();
         all.filter(|(_, p)| !p.is_shape() && p.is_instead == instead).map(|(number, _)| number).collect()

@@ -186,7 +186,7 @@ pub fn two_jitters(location: &Location, first: RandomEffect) -> Option<[RandomEf
     let least = SECOND.0 * first.ln_bayes + SECOND.1 + ordered(location, first.inflation, first.inflation);
     let other = 1 - number;
     let is_clear = both.beside.iter().all(|nats| *nats > least)
-        && is_new_in_each(location, other, both.strengths[other].value);
+        && !is_steady(&location.jitters, other, both.strengths[other].value);
     is_clear.then(|| [of(number, first.ln_bayes), of(other, both.beside[other])])
 }
 

@@ -1,8 +1,8 @@
 //! What the forms of named effects may leave of what these explain.
 
 use super::pass::DISBELIEF;
-use super::pieces::tolerance;
 use super::search::Named;
+use crate::physics::{EFFECTS, Fidelity};
 
 /// Effects of one quantity, ambient light or the power of the source: what the form of one leaves, another may look like.
 const OF_ONE_QUANTITY: [&[&str]; 2] =
@@ -18,6 +18,17 @@ const OF_DISTANCE: [&str; 6] = [
     "modulation_frequency_error",
     "multipath_interference",
 ];
+
+/// Share of what the effect called `name` explains that its own form may leave; a user's formula is exact.
+pub fn tolerance(name: &str) -> f64 {
+    let known = EFFECTS.iter().find(|effect| effect.name == name);
+    match known.map_or(Fidelity::Exact, |effect| effect.fidelity) {
+        Fidelity::Law => 1e-4,
+        Fidelity::Exact => 0.01,
+        Fidelity::Approximate => 0.04,
+        Fidelity::Loose => 0.08,
+    }
+}
 
 /// Whether two effects both change how far light seems to come.
 pub fn are_of_distance(one: &str, other: &str) -> bool {

@@ -4,7 +4,7 @@ use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, 
 use std::f64::consts::TAU;
 
 /// Another camera's modulated light beats with this one's demodulation: a phasor that turns with the difference of both frequencies, as frames see it, and from a phase step
-/// to the next. It is the same in all pixels (0), or goes with their ambient light, as what a surface of the scene throws back does (1), and is so large on average. What is
+/// to the next. It is the same in all pixels (0), or goes with their ambient light, as what a surface of the scene throws back does (1), and is so large in the root of the mean square. What is
 /// left after the exposure counts, and it begins anew with every recording.
 pub static EFFECT: Effect = Effect {
     name: "multi_camera_interference",
@@ -28,12 +28,12 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     let (cosine, sine) = cos_sin((exposure.angle_rad - TAU * values[2] * time_s) % TAU);
     let more_dn = exposure.moment.transmission * (values[0] * cosine + values[1] * sine);
     let ambient_dn = &exposure.pixels.ambient_dn;
-    let mean_dn = ambient_dn.iter().sum::<f64>() / ambient_dn.len() as f64;
+    let usual_dn = (ambient_dn.iter().map(|dn| dn * dn).sum::<f64>() / ambient_dn.len() as f64).sqrt();
     if values[3] < 0.5 {
         exposure.signal_dn.iter_mut().for_each(|signal| *signal += more_dn);
-    } else if mean_dn > 0.0 {
+    } else if usual_dn > 0.0 {
         for (signal, ambient) in exposure.signal_dn.iter_mut().zip(&**ambient_dn) {
-            *signal += more_dn * ambient / mean_dn;
+            *signal += more_dn * ambient / usual_dn;
         }
     }
 }
