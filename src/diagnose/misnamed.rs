@@ -137,11 +137,6 @@ fn no_beat(data: &Data, found: &Found) -> Option<Misnamed> {
             Some((piece.values[hz], longest_s))
         })
         .collect();
-    let turns = beats.iter().any(|(hz, longest_s)| hz.abs() * longest_s > DRIFT_CYCLES);
-    // A recording knows its frequency to a cycle over its length.
-    let is_same =
-        |(hz, s): &(f64, f64), (other, other_s): &(f64, f64)| (hz - other).abs() * s.min(*other_s) < 1.0;
-    let is_one = beats.iter().all(|one| beats.iter().all(|other| is_same(one, other)));
     let place = || Place {
         coordinate: "time_s",
         shape: "offset, what follows the phase steps and is no beat of one frequency".to_owned(),
@@ -151,7 +146,16 @@ fn no_beat(data: &Data, found: &Found) -> Option<Misnamed> {
         take: 0,
         is_random: false,
     };
-    (!turns || !is_one).then(|| Misnamed { names: vec![OTHER_CAMERA], place: place() })
+    (!is_one_beat(&beats)).then(|| Misnamed { names: vec![OTHER_CAMERA], place: place() })
+}
+
+/// Whether beats, each of a frequency (Hz) in recordings of which the longest takes so long (s), are one that turns.
+fn is_one_beat(beats: &[(f64, f64)]) -> bool {
+    let turns = beats.iter().any(|(hz, longest_s)| hz.abs() * longest_s > DRIFT_CYCLES);
+    // A recording knows its frequency to a cycle over its length.
+    let is_same =
+        |(hz, s): &(f64, f64), (other, other_s): &(f64, f64)| (hz - other).abs() * s.min(*other_s) < 1.0;
+    turns && beats.iter().all(|one| beats.iter().all(|other| is_same(one, other)))
 }
 
 /// Numbers of a beat cost so many nats each.
@@ -180,4 +184,17 @@ fn without(data: &Data, found: &Found, noise: Noise, name: &str) -> Series {
     let (tangents, _) = Tangents::new(data, &found.fit.pixels, &others, &[]);
     let visit = |series: Series, whitened: &Whitened| series.with(data, whitened);
     Gram::visited(data, &tangents, noise, &|_| true, &visit, &Series::and).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beat_is_one_and_turns() {
+        // Recordings of 10 and of 40 s: what the shorter one says is known to a tenth of a hertz.
+        assert!(is_one_beat(&[(1.37, 10.0), (1.42, 40.0)]) && is_one_beat(&[(-1.37, 40.0)]));
+        assert!(!is_one_beat(&[(1.37, 10.0), (1.48, 40.0)]) && !is_one_beat(&[(1.37, 40.0), (-1.37, 40.0)]));
+        assert!(!is_one_beat(&[(0.07, 40.0), (0.07, 10.0)]));
+    }
 }
