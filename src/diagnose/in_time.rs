@@ -6,6 +6,7 @@ use super::evidence::Greatest;
 use super::jitters::{Frame, Jitters};
 use super::lines::strongest;
 use super::periodogram::{FINENESS, Sum, longest, power};
+use super::swings::usual;
 use std::collections::BTreeMap;
 
 /// Evidence (nats) from which on there is a line beside errors that are random.
@@ -35,12 +36,8 @@ const BESIDES: f64 = 3.0;
 /// recording.
 pub fn is_line(jitters: &Jitters, of: Said, sigma: f64) -> bool {
     let mut takes = BTreeMap::<usize, Vec<(f64, Sum)>>::new();
-    let mut periods_s = Vec::new();
-    for (frame, next) in jitters.frames().iter().zip(jitters.frames().iter().skip(1)) {
-        if frame.set == next.set && next.time_s > frame.time_s {
-            periods_s.push(next.time_s - frame.time_s);
-        }
-    }
+    let of_one_set = jitters.frames().windows(2).filter(|pair| pair[0].set == pair[1].set);
+    let period_s = usual(of_one_set.map(|pair| pair[1].time_s - pair[0].time_s).collect());
     let beyond_noise: f64 = heard(jitters, of).map(|(_, (score, k))| score * score / k - 1.0).sum();
     for (frame, sum) in heard(jitters, of) {
         takes.entry(frame.take).or_default().push((frame.time_s, sum));
@@ -53,8 +50,7 @@ pub fn is_line(jitters: &Jitters, of: Said, sigma: f64) -> bool {
     };
     let random: Vec<Vec<_>> = takes.iter().map(|take| take.iter().map(beside).collect()).collect();
     let longest_s = longest(&takes);
-    periods_s.sort_by(f64::total_cmp);
-    let Some(period_s) = periods_s.get(periods_s.len() / 2) else { return false };
+    let Some(period_s) = period_s else { return false };
     let frames = takes.iter().map(Vec::len).sum::<usize>() as f64;
     let most_hz = MOST_PRODUCTS / (frames * FINENESS * longest_s);
     let ends = (LEAST_CYCLES / longest_s, (0.5 / period_s).min(most_hz));
@@ -100,7 +96,7 @@ fn likelihood(frames: &[(f64, f64)], all: f64, (share, few): (f64, f64)) -> f64 
             true => likelier + share.ln(),
             false => (share * likelier.exp_m1()).ln_1p(),
         };
-        usual + by_few.max(f64::MIN) - ln_normal(square, 1.0)
+        usual + by_few - ln_normal(square, 1.0)
     };
     frames.iter().map(of).sum()
 }

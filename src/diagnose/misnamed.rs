@@ -34,7 +34,10 @@ pub fn misnamed(
     // Where nothing of the camera is described, overtones may be anything else that is left.
     let waves = || if data.assumed.camera { None } else { no_wave(data, found, baseline, noise) };
     let drifts = || if data.assumed.camera { None } else { no_drift(data, found, noise) };
-    no_lamp(data, found, noise, inflation).or_else(|| no_beat(data, found)).or_else(drifts).or_else(waves)
+    no_lamp(data, found, noise, inflation)
+        .or_else(|| no_beat(data, found, baseline.take))
+        .or_else(drifts)
+        .or_else(waves)
 }
 
 /// Where something changed at once that was taken for a drift.
@@ -119,7 +122,7 @@ fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<M
 const OTHER_CAMERA: &str = "multi_camera_interference";
 
 /// Where something follows the phase steps that was taken for another camera's light, and has not one beat in all recordings, or none that turns.
-fn no_beat(data: &Data, found: &Found) -> Option<Misnamed> {
+fn no_beat(data: &Data, found: &Found, take: usize) -> Option<Misnamed> {
     let named = found.named.iter().find(|named| named.name == OTHER_CAMERA)?;
     let duration_s = |take: usize| {
         let times_s = || data.takes[take].moments.iter().map(|moment| moment.time_s);
@@ -143,7 +146,7 @@ fn no_beat(data: &Data, found: &Found) -> Option<Misnamed> {
         ln_bayes: stands_for(named),
         chi2: named.score,
         looked: 1.0,
-        take: 0,
+        take,
         is_random: false,
     };
     (!is_one_beat(&beats)).then(|| Misnamed { names: vec![OTHER_CAMERA], place: place() })

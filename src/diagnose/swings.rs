@@ -145,7 +145,7 @@ fn gaps(take: &Take) -> Vec<f64> {
 }
 
 /// The median of those that are times.
-fn usual(mut gaps_s: Vec<f64>) -> Option<f64> {
+pub fn usual(mut gaps_s: Vec<f64>) -> Option<f64> {
     gaps_s.retain(|s| *s > 0.0);
     gaps_s.sort_by(f64::total_cmp);
     gaps_s.get(gaps_s.len() / 2).copied()

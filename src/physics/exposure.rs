@@ -246,6 +246,11 @@ impl Exposure {
         self.velocity_m_s * self.in_set_s
     }
 
+    /// When the frame is really taken, s: an error of the frames' times moves it from when the camera says.
+    pub fn taken_s(&self) -> f64 {
+        self.moment.time_s - self.moment.in_set_s + self.in_set_s
+    }
+
     /// By how much the target has moved farther, m, when the last row begins than when the first one does, if all of the way since the set's start
     /// counts.
     fn way_over_rows_m(&self) -> f64 {

@@ -21,8 +21,7 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let time_s = exposure.moment.time_s - exposure.moment.in_set_s + exposure.in_set_s;
-    let (cosine, sine) = cos_sin((TAU * values[2] * time_s) % TAU);
+    let (cosine, sine) = cos_sin((TAU * values[2] * exposure.taken_s()) % TAU);
     let factor = 1.0 + values[0] * cosine + values[1] * sine;
     exposure.ambient_dn.iter_mut().for_each(|ambient| *ambient *= factor);
 }

@@ -24,14 +24,15 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let time_s = exposure.moment.time_s - exposure.moment.in_set_s + exposure.in_set_s;
-    let (cosine, sine) = cos_sin((exposure.angle_rad - TAU * values[2] * time_s) % TAU);
+    let (cosine, sine) = cos_sin((exposure.angle_rad - TAU * values[2] * exposure.taken_s()) % TAU);
     let more_dn = exposure.moment.transmission * (values[0] * cosine + values[1] * sine);
-    let ambient_dn = &exposure.pixels.ambient_dn;
-    let usual_dn = (ambient_dn.iter().map(|dn| dn * dn).sum::<f64>() / ambient_dn.len() as f64).sqrt();
     if values[3] < 0.5 {
         exposure.signal_dn.iter_mut().for_each(|signal| *signal += more_dn);
-    } else if usual_dn > 0.0 {
+        return;
+    }
+    let ambient_dn = &exposure.pixels.ambient_dn;
+    let usual_dn = (ambient_dn.iter().map(|dn| dn * dn).sum::<f64>() / ambient_dn.len() as f64).sqrt();
+    if usual_dn > 0.0 {
         for (signal, ambient) in exposure.signal_dn.iter_mut().zip(&**ambient_dn) {
             *signal += more_dn * ambient / usual_dn;
         }
