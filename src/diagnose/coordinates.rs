@@ -4,8 +4,8 @@
 
 use super::acting::Acting;
 use super::columns::Frame;
+use super::neighbours::{NEIGHBOURS, neighbours};
 use super::ranges::Ranges;
-use crate::frames::Geometry;
 use crate::physics::{Moment, Pixels, cos_sin, ln};
 use crate::units::phase_rad;
 use crate::widest::widest;
@@ -44,14 +44,15 @@ pub struct Coordinate {
     pub shape: fn(&Ranges, usize) -> String,
 }
 
-/// In which way a frame is off: by so much light, in proportion to its signal, in phase.
-const MODES: [&str; 3] = ["offset", "gain", "phase"];
+/// In which way a frame is off: by so much light, in proportion to its signal, in phase, in proportion to its modulated part.
+pub const MODES: [&str; 4] = ["offset", "gain", "phase", "contrast"];
 
 fn mode(view: &View, mode: usize) -> Vec<f64> {
     match mode {
         0 => vec![1.0; view.frame.base.len()],
         1 => view.frame.base.to_vec(),
-        _ => view.frame.own[1].clone(),
+        2 => view.frame.own[1].clone(),
+        _ => times(&view.frame.own[0], &view.pixels.amplitude_1m_dn),
     }
 }
 
@@ -93,7 +94,7 @@ fn by_pixel(view: &View, of: usize, function: impl Fn(usize) -> Vec<(usize, f64)
 }
 
 /// Columns that have a pattern each.
-fn each(columns: Vec<Vec<f64>>) -> Acting {
+pub fn each(columns: Vec<Vec<f64>>) -> Acting {
     let mut acting = Acting::default();
     columns.into_iter().enumerate().for_each(|(number, values)| acting.column(number, values));
     acting
@@ -144,10 +145,15 @@ const CHANGES: [&str; 4] = ["with velocity", "with the frame of a set", "with di
 
 /// All coordinates whose columns are functions.
 pub const COORDINATES: [Coordinate; 11] = [
-    Coordinate { name: "phase", columns: |_| OF_RANGE + 3 * OF_OFFSET, fill: phase, shape: phase_shape },
+    Coordinate {
+        name: "phase",
+        columns: |_| OF_RANGE + MODES.len() * OF_OFFSET,
+        fill: phase,
+        shape: phase_shape,
+    },
     Coordinate {
         name: "position_m",
-        columns: |ranges| if ranges.has_places { 3 * POSITIONS } else { 0 },
+        columns: |ranges| if ranges.has_places { MODES.len() * POSITIONS } else { 0 },
         fill: |view| {
             let position_m = view.moment.commanded_m();
             by_frame(view, POSITIONS, &hats(within(position_m, view.ranges.position_m), POSITIONS))
@@ -158,7 +164,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "velocity_m_s",
-        columns: |_| 3 * RUN_WAYS.len(),
+        columns: |_| MODES.len() * RUN_WAYS.len(),
         fill: |view| {
             let moment = view.moment;
             let velocity = moment.velocity_m_s / view.ranges.speed_m_s.max(1e-9);
@@ -171,7 +177,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "frame",
-        columns: |ranges| 3 * ranges.frame_numbers,
+        columns: |ranges| MODES.len() * ranges.frame_numbers,
         fill: |view| {
             let number = view.ranges.frames[view.take].1 + view.moment.frame;
             by_frame(view, view.ranges.frame_numbers, &[(number, 1.0)])
@@ -186,7 +192,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "time_s",
-        columns: |ranges| 3 * TIMES * ranges.duration_s.len(),
+        columns: |ranges| MODES.len() * TIMES * ranges.duration_s.len(),
         fill: |view| {
             let of = TIMES * view.ranges.duration_s.len();
             let place = view.moment.time_s / view.ranges.duration_s[view.take].max(1e-9);
@@ -200,7 +206,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "row",
-        columns: |_| 3 * 2 * CHANGES.len(),
+        columns: |_| MODES.len() * 2 * CHANGES.len(),
         fill: |view| {
             by_line(view, view.ranges.geometry.height, |pixel| view.ranges.geometry.row_column(pixel).0)
         },
@@ -208,7 +214,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "column",
-        columns: |_| 3 * 2 * CHANGES.len(),
+        columns: |_| MODES.len() * 2 * CHANGES.len(),
         fill: |view| {
             by_line(view, view.ranges.geometry.width, |pixel| view.ranges.geometry.row_column(pixel).1)
         },
@@ -217,7 +223,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     Coordinate { name: "code", columns: |_| CODES + 2 * PATTERNS.len(), fill: code, shape: code_shape },
     Coordinate {
         name: "amplitude",
-        columns: |_| 3 * LIGHTS,
+        columns: |_| MODES.len() * LIGHTS,
         fill: |view| {
             let light: Vec<f64> = amplitude_dn(view).into_iter().map(|dn| ln(dn.max(1e-6))).collect();
             let ends = view.ranges.ln_amplitude;
@@ -234,7 +240,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "set",
-        columns: |ranges| if ranges.has_sets { 3 * 2 } else { 0 },
+        columns: |ranges| if ranges.has_sets { MODES.len() * 2 } else { 0 },
         fill: |view| {
             let odd = if view.moment.set % 2 == 0 { 1.0 } else { -1.0 };
             by_frame(view, 2, &[(0, odd), (1, odd * centred(view.moment))])
@@ -262,7 +268,11 @@ fn along(index: usize, count: usize) -> f64 {
 
 fn amplitude_dn(view: &View) -> Vec<f64> {
     // The tangent by the constant light at 1 m is the light's falloff.
-    view.frame.own[2].iter().zip(&view.pixels.amplitude_1m_dn).map(|(share, at_1m)| share * at_1m).collect()
+    times(&view.frame.own[2], &view.pixels.amplitude_1m_dn)
+}
+
+fn times(per: &[f64], numbers: &[f64]) -> Vec<f64> {
+    per.iter().zip(numbers).map(|(per, number)| per * number).collect()
 }
 
 /// Phase: of the range (not of the offset) in cycles a turn as phase and gain errors, and of the waveform; and the phase offset, whatever the range.
@@ -376,25 +386,4 @@ fn code_shape(ranges: &Ranges, column: usize) -> String {
         }
         Some(pattern) => format!("with a period of {} DN", PATTERNS[pattern / 2]),
     }
-}
-
-const NEIGHBOURS: [&str; 4] =
-    ["neighbours beside", "neighbours above and below", "neighbours that are brighter", "the whole image"];
-
-fn neighbours(view: &View) -> Acting {
-    let base = &view.frame.base;
-    let Geometry { width, height } = view.ranges.geometry;
-    let mean = base.iter().sum::<f64>() / base.len().max(1) as f64;
-    let mut columns: Vec<Vec<f64>> = vec![vec![0.0; base.len()]; NEIGHBOURS.len()];
-    for (pixel, &own) in base.iter().enumerate() {
-        let (row, column) = view.ranges.geometry.row_column(pixel);
-        let at = |row: usize, column: usize| base[row.min(height - 1) * width + column.min(width - 1)] - own;
-        let [left, right] = [at(row, column.saturating_sub(1)), at(row, column + 1)];
-        let [above, below] = [at(row.saturating_sub(1), column), at(row + 1, column)];
-        columns[0][pixel] = left + right;
-        columns[1][pixel] = above + below;
-        columns[2][pixel] = [left, right, above, below].iter().map(|more| more.max(0.0)).sum();
-        columns[3][pixel] = mean - own;
-    }
-    each(columns)
 }

@@ -1,6 +1,6 @@
 //! Parts of a coordinate's columns: one way of being off alone may say it by fewer numbers than all.
 
-use super::coordinates::OF_RANGE;
+use super::coordinates::{MODES, OF_RANGE};
 use super::ranges::Ranges;
 
 /// Parts of the columns of a coordinate, by their numbers.
@@ -54,10 +54,10 @@ const PARTS: [(&str, Parts); 9] = [
 /// Frames of a short set.
 const SHORT: usize = 8;
 
-/// Offset, gain and phase.
+/// Those of each of [`MODES`].
 fn modes(_: &Ranges, size: usize) -> Vec<Vec<usize>> {
-    let of = size / 3;
-    (0..3).map(|mode| (mode * of..(mode + 1) * of).collect()).collect()
+    let of = size / MODES.len();
+    (0..MODES.len()).map(|mode| (mode * of..(mode + 1) * of).collect()).collect()
 }
 
 /// Parts of the columns of `coordinate`, which has so many.
@@ -92,28 +92,28 @@ mod tests {
         let ranges = ranges(vec![(4, 0), (64, 4)]);
         let phase = COORDINATES.iter().find(|coordinate| coordinate.name == "phase").unwrap();
         let of_phase = (phase.columns)(&ranges);
-        for (name, size) in [("phase", of_phase), ("time_s", 48), ("set", 6)] {
+        for (name, size) in [("phase", of_phase), ("time_s", 64), ("set", 8)] {
             let mut all = parts(name, &ranges, size).concat();
             all.sort_unstable();
             assert_eq!(all, (0..size).collect::<Vec<_>>(), "{name}");
         }
         let phase = parts("phase", &ranges, of_phase);
         assert_eq!((&phase[1][..4], phase[3][0]), (&[2, 3, 8, 9][..], 36));
-        // Offset, gain and phase have each a cosine and a sine of one to four cycles.
-        assert_eq!(phase[3..].iter().map(Vec::len).collect::<Vec<_>>(), [8, 8, 8]);
+        // Offset, gain, phase and contrast have each a cosine and a sine of one to four cycles.
+        assert_eq!(phase[3..].iter().map(Vec::len).collect::<Vec<_>>(), [8; 4]);
         assert!(parts("neighbours", &ranges, 4).is_empty());
     }
 
     #[test]
     fn frames_of_short_sets_are_parts_besides() {
-        let parts = parts("frame", &ranges(vec![(4, 0), (64, 4)]), 3 * 68);
-        // All and the short ones in three ways, and eight frames alone.
-        assert_eq!(parts.len(), 6 + 8);
-        assert_eq!(parts[3], [0, 1, 2, 3]);
-        assert_eq!(parts[5], [136, 137, 138, 139]);
-        assert_eq!(parts[7], [1, 5]);
-        let alike = super::parts("frame", &ranges(vec![(4, 0), (5, 4), (5, 4)]), 27);
-        assert_eq!(alike.len(), 3 + 5);
-        assert_eq!((&alike[3][..], &alike[7][..]), (&[0, 4][..], &[8][..]));
+        let parts = parts("frame", &ranges(vec![(4, 0), (64, 4)]), 4 * 68);
+        // All and the short ones in four ways, and eight frames alone.
+        assert_eq!(parts.len(), 8 + 8);
+        assert_eq!(parts[4], [0, 1, 2, 3]);
+        assert_eq!(parts[6], [136, 137, 138, 139]);
+        assert_eq!(parts[9], [1, 5]);
+        let alike = super::parts("frame", &ranges(vec![(4, 0), (5, 4), (5, 4)]), 4 * 9);
+        assert_eq!(alike.len(), 4 + 5);
+        assert_eq!((&alike[4][..], &alike[8][..]), (&[0, 4][..], &[8][..]));
     }
 }
