@@ -1,7 +1,7 @@
 //! The verdict in a word, from what is named and what is left.
 
+use super::found::Named;
 use super::pass::DISBELIEF;
-use super::search::Named;
 use super::tolerated::form_share;
 
 /// The verdict.

@@ -4,12 +4,12 @@ use super::alias::{alias_odds, odds_against};
 use super::answer::{EffectRow, EvidenceRow, ParameterRow};
 use super::bounds::is_at_bound;
 use super::data::Data;
+use super::found::Named;
 use super::images::{Image, also_seen, images, spread};
 use super::judge::Judgement;
 use super::lamps::FLICKER;
 use super::pieces::Piece;
 use super::random::{EXCESS_NOISE, Strength};
-use super::search::Named;
 use crate::physics::Effect;
 use crate::recording::effect_name;
 

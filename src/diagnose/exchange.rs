@@ -2,10 +2,11 @@
 
 use super::data::Data;
 use super::fit::{Fit, fit_below};
+use super::found::Named;
 use super::noise::Noise;
 use super::pass::{DISBELIEF, Pass, RIVAL_NATS, SIMPLER_SHARE};
 use super::pieces::Candidate;
-use super::search::{Named, UNDESCRIBED};
+use super::search::UNDESCRIBED;
 use super::tolerated::{tolerance, tolerated};
 
 /// So many are tried in the place of one.

@@ -3,9 +3,9 @@
 use super::columns::Column;
 use super::data::Data;
 use super::fit::{Fit, fit};
+use super::found::Found;
 use super::noise::Noise;
 use super::pieces::Piece;
-use super::search::Found;
 
 /// A drift of the light, and its number that is each recording's own.
 const DRIFT: &str = "illumination_drift";

@@ -4,8 +4,8 @@ use super::acting::Acting;
 use super::columns::{Frame, own_values};
 use super::data::Data;
 use super::evidence::VISIBLE;
+use super::found::Found;
 use super::noise::Noise;
-use super::search::Found;
 use super::steps::{OfNamed, alone};
 use nalgebra::DMatrix;
 

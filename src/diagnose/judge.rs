@@ -5,6 +5,7 @@ use super::conclusion::{Case, Verdict};
 use super::data::Data;
 use super::finished::finished;
 use super::fit::{Fit, fit};
+use super::found::{Found, Named};
 use super::gains::{self, gain_of_recordings};
 use super::held_out::Predictor;
 use super::included::Forms;
@@ -19,7 +20,6 @@ use super::random::{
     may_be_of_light, new_each_time, of_name, random_effect, two_jitters, words,
 };
 use super::refused::{Refused, refused};
-use super::search::{Found, Named};
 use super::searched::{InProportion, Searched, searched};
 use super::tolerated::{tolerated, tolerated_as_new};
 use super::vote::Names;

@@ -2,6 +2,7 @@
 
 use super::columns::Tangents;
 use super::data::Data;
+use super::found::{Found, Named};
 use super::gram::{Gram, Whitened};
 use super::hops::{Hop, hop};
 use super::images::alike;
@@ -11,7 +12,6 @@ use super::location::Location;
 use super::mismatch::Place;
 use super::noise::Noise;
 use super::overtones::{OF_CODES, overtones};
-use super::search::{Found, Named};
 use super::source::{Shown, is_one, shown};
 use super::steps::{CURVES, step};
 

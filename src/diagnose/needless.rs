@@ -5,9 +5,9 @@ use super::completed::NEEDED_NATS;
 use super::data::Data;
 use super::finished::finished;
 use super::fit::{Fit, fit, fit_below};
+use super::found::Named;
 use super::noise::Noise;
 use super::pieces::Piece;
-use super::search::Named;
 use std::collections::BTreeSet;
 
 /// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.

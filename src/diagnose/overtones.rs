@@ -4,10 +4,10 @@
 use super::columns::Tangents;
 use super::data::Data;
 use super::evidence::{Block, Evidence, tail};
+use super::found::Found;
 use super::gram::Gram;
 use super::noise::Noise;
 use super::pieces::Piece;
-use super::search::Found;
 
 /// The effect that is a wave over the codes.
 pub const OF_CODES: &str = "adc_nonlinearity";
@@ -22,6 +22,12 @@ const BY_CHANCE: f64 = 1e-3;
 /// Whether `piece` is a wave over the codes of which there are fewer than so many `periods` among the signals.
 pub fn is_longer(data: &Data, piece: &Piece, periods: f64) -> bool {
     piece.effect.name == OF_CODES && periods * piece.values[PERIOD] > data.span_dn()
+}
+
+/// Whether one of these `pieces` is a wave over the codes that has no whole period among the signals: a smooth curve is the response's, as a rule, whatever its
+/// form.
+pub fn is_bend(data: &Data, pieces: &[Piece]) -> bool {
+    pieces.iter().any(|piece| is_longer(data, piece, 1.0))
 }
 
 /// Whether the wave over the codes that was `found` has overtones: its period, DN.

@@ -38,6 +38,9 @@ pub const THRESHOLD: f64 = 1.0;
 /// The same for an effect beside others: a second name is less trustworthy than the first.
 const FURTHER_THRESHOLD: f64 = 4.0;
 
+/// Of what one coordinate explains, two effects together must promise so much for any to be looked for.
+const HOPEFUL_SHARE: f64 = 1.0 / 3.0;
+
 /// What one pass says of all candidates.
 #[derive(Debug, Clone, Default)]
 pub struct Pass {
@@ -173,6 +176,15 @@ impl Pass {
         let leads = |&block: &usize| leaders.iter().any(|&leader| candidate(leader) == candidate(block));
         let others = best.blocks.iter().copied().filter(|block| !is_far && !leads(block)).collect();
         (leaders.len() > 1).then_some((leaders, others))
+    }
+
+    /// Whether no two effects promise together as much as a third of what one coordinate explains, `located`, chi squared besides chance: none of
+    /// them would outdo it.
+    pub fn is_hopeless(&self, located: f64) -> bool {
+        let excess = |&block: &usize| self.scores[block].map_or(0.0, |(chi2, degrees)| chi2 - degrees as f64);
+        let alone = |model: &Model| model.blocks.iter().map(excess).sum::<f64>();
+        let promised = |model: &Model| alone(model).max(2.0 * model.ln_bayes);
+        self.models.iter().map(promised).fold(0.0, f64::max) < HOPEFUL_SHARE * located
     }
 
     /// Whether the effect of a block is there in both of two forms.
@@ -324,6 +336,20 @@ mod tests {
         let leading: Vec<usize> = (0..18).filter(|n| n % 3 < 2).collect();
         assert_eq!(of.leaders(&model(&[0, 23]), true), Some((leading, vec![])));
         assert_eq!(of.leaders(&model(&[0, 23]), false), Some((vec![0, 1, 3, 4, 6], vec![23])));
+    }
+
+    #[test]
+    fn what_promises_less_than_a_third_of_a_coordinate_is_hopeless() {
+        let mut of = pass(&[(0, 101.0, 1), (1, 60.0, 10)]);
+        let models = |ln_bayes| vec![model(&[0]), Model { blocks: vec![0, 1], ln_bayes }];
+        // Besides chance they promise 100 and 50.
+        of.models = models(60.0);
+        assert!(of.is_hopeless(451.0) && !of.is_hopeless(449.0) && !of.is_hopeless(0.0));
+        // Of two that hide each other the evidence says more.
+        of.models = models(100.0);
+        assert!(of.is_hopeless(601.0) && !of.is_hopeless(599.0));
+        of.models.clear();
+        assert!(of.is_hopeless(1.0) && !of.is_hopeless(0.0));
     }
 
     #[test]

@@ -2,10 +2,10 @@
 
 use super::data::Data;
 use super::fit::{Fit, HOPE, fit_below};
+use super::found::Named;
 use super::noise::Noise;
 use super::pass::RIVAL_NATS;
 use super::pieces::Piece;
-use super::search::Named;
 use super::tolerated::{are_of_distance, tolerated};
 use crate::physics::Parameter;
 

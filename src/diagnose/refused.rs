@@ -1,6 +1,6 @@
 //! Names that the search found and that are not asserted, and why.
 
-use super::search::{Found, Named};
+use super::found::{Found, Named};
 
 /// A name that was found, and is not believed.
 #[derive(Debug, Clone, PartialEq)]

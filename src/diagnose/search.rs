@@ -9,16 +9,15 @@ use super::evidence::Model;
 use super::exchange::exchange;
 use super::finished::finished;
 use super::fit::{Fit, fit};
+use super::found::{Found, Named};
 use super::lamps::FLICKER;
 use super::needless::{drop_needless, without_bounded};
 use super::noise::Noise;
-use super::overtones::is_longer;
+use super::overtones::is_bend;
 use super::pass::{Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates};
-use super::power::Detectable;
 use super::promised::Promised;
 use super::refined::refined;
-use super::simpler::Simpler;
 use super::tolerated::tolerated;
 use super::trust::Trust;
 use super::uneven::uneven;
@@ -34,52 +33,6 @@ pub const UNDESCRIBED: f64 = 0.1;
 /// A fit keeps at least so much of what the tangents promise.
 const KEPT_SHARE: f64 = 0.5;
 
-/// An effect that is asserted.
-#[derive(Debug, Clone)]
-pub struct Named {
-    /// Its name.
-    pub name: &'static str,
-    /// Evidence when it was found, beside those before it, nats.
-    pub ln_bayes: f64,
-    /// Score statistic and its degrees of freedom when it was found.
-    pub score: (f64, usize),
-    /// Other effects that do about as well in the place of one that was found with it.
-    pub rivals: Vec<String>,
-    /// Whether it was named though the forms of others may leave more than it explains.
-    pub is_trusted: bool,
-}
-
-/// What the search found.
-#[derive(Debug)]
-pub struct Found {
-    /// The baseline's fit.
-    pub baseline: Fit,
-    /// The fit with what was found; the baseline where nothing was.
-    pub fit: Fit,
-    /// The effects, in the order in which they were found.
-    pub named: Vec<Named>,
-    /// Candidates whose every column is absorbed by the pixels' own numbers.
-    pub invisible: Vec<&'static str>,
-    /// Smallest strengths that would be found.
-    pub detectable: Vec<Detectable>,
-    /// Each candidate alone at the baseline.
-    pub alone: Vec<Alone>,
-    /// What simpler methods name at the baseline.
-    pub simpler: Simpler,
-}
-
-impl Found {
-    /// The candidate `name` alone at the baseline; nothing where it is none.
-    pub fn alone(&self, name: &str) -> Option<&Alone> {
-        Alone::of(&self.alone, name)
-    }
-
-    /// Whether an effect is named though the forms of others may leave more than it explains.
-    pub fn trusts_forms(&self) -> bool {
-        self.named.iter().any(|named| named.is_trusted)
-    }
-}
-
 /// A search, as far as it has come.
 #[derive(Debug)]
 pub struct Search<'a> {
@@ -89,6 +42,8 @@ pub struct Search<'a> {
     inflation: f64,
     /// Chi squared that the forms of effects which the camera includes may leave.
     of_included: f64,
+    /// Chi squared, besides chance, that one coordinate explains of what the baseline leaves; 0 where that does not matter.
+    located: f64,
     baseline: Fit,
     /// The fit with what is named.
     current: Fit,
@@ -104,14 +59,25 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Of `data`, to which `baseline` was fitted without any effect, beside noise that samples share, which raises the variance of what columns say
-    /// by `inflation`, and where the forms of effects that the camera includes may leave so much of chi squared.
-    pub fn new(data: &'a Data, baseline: Fit, noise: Noise, inflation: f64, of_included: f64) -> Self {
+    /// by `inflation`, and where the forms of effects that the camera includes may leave so much of chi squared. Of chi squared, `located` is what one
+    /// coordinate explains: where effects come nowhere near that, whatever they explain is not what is there.
+    pub fn new(
+        data: &'a Data,
+        baseline: Fit,
+        noise: Noise,
+        inflation: f64,
+        of_included: f64,
+        located: f64,
+    ) -> Self {
         let current = baseline.clone();
+        // Far off, tangents say little of what a fit will, and where no camera is described several things are left out at once.
+        let located = if data.assumed.camera || baseline.is_far() { 0.0 } else { located };
         Self {
             data,
             noise,
             inflation,
             of_included,
+            located,
             baseline,
             current,
             named: Vec::new(),
@@ -171,6 +137,10 @@ impl<'a> Search<'a> {
         let candidates = candidates(data, &self.current.series);
         let pass = Pass::of(data, &self.current, &candidates, noise, self.inflation);
         let (_, alone) = self.first.get_or_insert_with(|| (pass.clone(), pass.alone(&candidates)));
+        if self.named.is_empty() && pass.is_hopeless(self.located) {
+            self.is_over = true;
+            return None;
+        }
         // Far from the baseline forms are not that well known, and what nobody described is not trusted there.
         let is_far = self.baseline.is_far_from(&self.current);
         let share = if data.assumed.camera && !is_far { UNDESCRIBED } else { 1.0 };
@@ -389,9 +359,4 @@ impl<'a> Search<'a> {
         self.current = fitted;
         true
     }
-}
-
-/// Whether a wave over the codes has no whole period among the signals: a smooth curve is the response's, as a rule, whatever its form.
-fn is_bend(data: &Data, pieces: &[Piece]) -> bool {
-    pieces.iter().any(|piece| is_longer(data, piece, 1.0))
 }

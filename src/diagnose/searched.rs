@@ -1,13 +1,15 @@
 //! Searches: with trust in forms or without, beside noise as it shows and errors that frames share.
 
+use super::clusters::Level;
 use super::data::Data;
 use super::finished::unfitted;
 use super::fit::Fit;
-use super::location::{Location, locate};
+use super::found::Found;
+use super::location::{LOCATED_NATS, Located, Location, locate};
 use super::mismatch::places;
 use super::noise::{Noise, beyond};
 use super::random::{self, is_noisier, jitter, random_effect};
-use super::search::{Found, Search};
+use super::search::Search;
 
 /// Errors of frames are more than the camera includes by this factor, or are found beside those.
 const MORE: f64 = 1.1;
@@ -67,13 +69,26 @@ fn search(data: &Data, baseline: Fit, noise: Noise, of_included: f64) -> Searche
         [] => before.clone(),
         _ => locate(data, &found.fit, noise),
     };
-    let (mut found, without_trust) = Search::new(data, baseline, noise, inflation, of_included).with_trust();
+    let (mut found, without_trust) =
+        Search::new(data, baseline, noise, inflation, of_included, located(data, &before)).with_trust();
     let mut after = end(&found);
     if let Some(search) = without_trust.filter(|_| found.trusts_forms() && !places(data, &after).is_empty()) {
         found = search.without_trust();
         after = end(&found);
     }
     Searched { found, locations: [before, after], noise }
+}
+
+/// Chi squared, besides chance, that one coordinate explains of what is left `before` a search: by columns, or by errors that rows, columns or neighbours share
+/// and no effect makes.
+fn located(data: &Data, before: &Location) -> f64 {
+    let is_clear = |located: &&Located| located.ln_bayes > LOCATED_NATS;
+    let columns = before.columns.iter().filter(is_clear);
+    let columns = columns.map(|located| located.chi2.0 - located.chi2.1 as f64);
+    let errors = random::errors(data, before).into_iter();
+    let of_lines =
+        errors.filter(|error| matches!(error.level, Level::Row | Level::Column | Level::Neighbours));
+    columns.chain(of_lines.map(|error| 2.0 * error.ln_bayes)).fold(0.0, f64::max)
 }
 
 /// The same beside errors of frames, where the `end` of a search shows such as a jitter makes, and a search that has them among the noise leaves nothing else:

@@ -4,10 +4,10 @@ use super::acting::Acting;
 use super::columns::{Column, Frame, Tangents};
 use super::data::Data;
 use super::evidence::VISIBLE;
+use super::found::Found;
 use super::gram::{Gram, Projected};
 use super::noise::Noise;
 use super::overtones::OF_CODES;
-use super::search::Found;
 use nalgebra::{DMatrix, DVector};
 
 /// Levels that are looked at, evenly apart in the signal's root: where most codes are, at a small signal, they are nearer to each other.

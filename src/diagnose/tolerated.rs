@@ -1,7 +1,7 @@
 //! What the forms of named effects may leave of what these explain.
 
+use super::found::Named;
 use super::pass::DISBELIEF;
-use super::search::Named;
 use crate::physics::{EFFECTS, Fidelity};
 
 /// Effects of one quantity, ambient light or the power of the source: what the form of one leaves, another may look like.

@@ -1,6 +1,6 @@
 //! What is trusted to be an effect of its own beside others whose forms may leave more than it explains.
 
-use super::search::Named;
+use super::found::Named;
 use super::tolerated::{are_of_distance, are_of_one_quantity};
 
 /// Such an effect is trusted if it explains at least this share of what the forms may leave.

@@ -3,10 +3,10 @@
 
 use super::data::Data;
 use super::fit::{Fit, fit};
+use super::found::Named;
 use super::included::included_of;
 use super::noise::Noise;
 use super::pieces::{OF_ONE_PLACE, Piece};
-use super::search::Named;
 use crate::physics::effects;
 
 /// What fades alike all over the image.

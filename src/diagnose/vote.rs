@@ -1,11 +1,11 @@
 //! Whether a coordinate is a simpler answer than the effects that were named.
 
 use super::evidence::tail;
+use super::found::{Found, Named};
 use super::lamps::FLICKER;
 use super::location::{LOCATED_NATS, Located, Location};
 use super::pass::RIVAL_NATS;
 use super::pieces::{OF_OTHER_PIXELS, Piece};
-use super::search::{Found, Named};
 use super::tolerated::tolerated;
 
 /// What an effect's freedom costs, nats, where its evidence is taken from its fit.

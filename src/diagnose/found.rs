@@ -1,0 +1,52 @@
+//! What a search found.
+
+use super::alone::Alone;
+use super::fit::Fit;
+use super::power::Detectable;
+use super::simpler::Simpler;
+
+/// An effect that is asserted.
+#[derive(Debug, Clone)]
+pub struct Named {
+    /// Its name.
+    pub name: &'static str,
+    /// Evidence when it was found, beside those before it, nats.
+    pub ln_bayes: f64,
+    /// Score statistic and its degrees of freedom when it was found.
+    pub score: (f64, usize),
+    /// Other effects that do about as well in the place of one that was found with it.
+    pub rivals: Vec<String>,
+    /// Whether it was named though the forms of others may leave more than it explains.
+    pub is_trusted: bool,
+}
+
+/// What the search found.
+#[derive(Debug)]
+pub struct Found {
+    /// The baseline's fit.
+    pub baseline: Fit,
+    /// The fit with what was found; the baseline where nothing was.
+    pub fit: Fit,
+    /// The effects, in the order in which they were found.
+    pub named: Vec<Named>,
+    /// Candidates whose every column is absorbed by the pixels' own numbers.
+    pub invisible: Vec<&'static str>,
+    /// Smallest strengths that would be found.
+    pub detectable: Vec<Detectable>,
+    /// Each candidate alone at the baseline.
+    pub alone: Vec<Alone>,
+    /// What simpler methods name at the baseline.
+    pub simpler: Simpler,
+}
+
+impl Found {
+    /// The candidate `name` alone at the baseline; nothing where it is none.
+    pub fn alone(&self, name: &str) -> Option<&Alone> {
+        Alone::of(&self.alone, name)
+    }
+
+    /// Whether an effect is named though the forms of others may leave more than it explains.
+    pub fn trusts_forms(&self) -> bool {
+        self.named.iter().any(|named| named.is_trusted)
+    }
+}
