@@ -192,6 +192,36 @@ fn a_swing_is_a_mismatch_in_time() {
     assert!(hz.is_some_and(|hz| (hz - 1.0 / 2.9).abs() < 0.01), "{shape}");
 }
 
+/// The modulated part alone is less for some seconds: no gain, and no function of the phase.
+#[test]
+fn a_loss_of_contrast_is_a_mismatch_in_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = folder.path().join("library.toml");
+    std::fs::write(&library, CONTRAST).unwrap();
+    let library = library.to_str().unwrap();
+    let options =
+        ["--size", SIZE, "--seed", "31", "--recordings", "four-sweep,four-rail", "--library", library];
+    let campaign =
+        simulated(folder.path().join("campaign"), &[&options[..], &concealed(&["contrast_loss"])].concat());
+    let verdict = verdict(&campaign);
+    is_unexplained(&verdict, "time_s");
+    let shape = verdict["located"][0]["shape"].as_str().unwrap();
+    assert!(shape.starts_with("contrast, at "), "{shape}");
+}
+
+const CONTRAST: &str = r#"
+[[effect]]
+name = "contrast_loss"
+sentence = "The demodulation contrast is less for some seconds."
+acts_on = "signal"
+formula = "-share * amplitude * cos(angle - phase) * exp(-((time_s - 9) / 3)^2)"
+[[effect.parameter]]
+name = "share"
+unit = "1"
+bounds = [0, 1]
+typical = 0.05
+"#;
+
 /// An offset of one frame of each set, which other gains of the frames would nearly make.
 #[test]
 fn a_weak_pulse_in_one_frame_is_no_other_gain() {

@@ -1,6 +1,6 @@
 //! The coordinates in which a residual is looked for: for each, columns that no physics asked for.
 //!
-//! A column is a way in which frames may be off (more light, more signal, another phase) times a function of the coordinate.
+//! A column is a way in which frames may be off (more light, more signal, another phase, more contrast) times a function of the coordinate.
 
 use super::acting::Acting;
 use super::columns::Frame;
@@ -52,8 +52,16 @@ fn mode(view: &View, mode: usize) -> Vec<f64> {
         0 => vec![1.0; view.frame.base.len()],
         1 => view.frame.base.to_vec(),
         2 => view.frame.own[1].clone(),
-        _ => times(&view.frame.own[0], &view.pixels.amplitude_1m_dn),
+        _ => contrast(view),
     }
+}
+
+/// Of pixels that do not tell how their light splits, what is more of it would be more contrast, too.
+fn contrast(view: &View) -> Vec<f64> {
+    let mut contrast = times(&view.frame.own[0], &view.pixels.amplitude_1m_dn);
+    let untold = contrast.iter_mut().zip(&view.ranges.tells_constant).filter(|(_, tells)| !**tells);
+    untold.for_each(|(contrast, _)| *contrast = 0.0);
+    contrast
 }
 
 /// Columns of all modes, for functions of the frame alone: `(number of the function, its value)`, in order.

@@ -75,6 +75,7 @@ mod tests {
         Ranges {
             geometry: Geometry { width: 2, height: 2 },
             is_still: false,
+            tells_constant: vec![true; 4],
             position_m: (0.0, 1.0),
             speed_m_s: 1.0,
             duration_s: vec![1.0; frames.len()],

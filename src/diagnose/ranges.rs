@@ -11,6 +11,8 @@ pub struct Ranges {
     pub geometry: Geometry,
     /// Whether nothing moves.
     pub is_still: bool,
+    /// Of each pixel, whether it tells the constant part of the camera's light from ambient light.
+    pub tells_constant: Vec<bool>,
     /// Position of the target plane, m.
     pub position_m: (f64, f64),
     /// Whether it is at several positions.
@@ -53,6 +55,7 @@ impl Ranges {
         Self {
             geometry: data.geometry(),
             is_still,
+            tells_constant: (0..pixels.count()).map(|pixel| data.tells_constant(pixel)).collect(),
             position_m,
             has_places: places_m.0 < places_m.1,
             has_sets: moments().any(|moment| moment.set > 0),

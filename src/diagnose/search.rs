@@ -70,8 +70,6 @@ impl<'a> Search<'a> {
         located: f64,
     ) -> Self {
         let current = baseline.clone();
-        // Far off, tangents say little of what a fit will, and where no camera is described several things are left out at once.
-        let located = if data.assumed.camera || baseline.is_far() { 0.0 } else { located };
         Self {
             data,
             noise,
