@@ -138,7 +138,7 @@ mod tests {
     const SIZE: Geometry = Geometry { width: 16, height: 12 };
     const RECORDINGS: [&str; 3] = ["four-sweep", "four-rail", "wdft-motion"];
     /// Shapes between those from which a search begins.
-    const BETWEEN: [&str; 12] = [
+    const BETWEEN: [&str; 11] = [
         "adc_nonlinearity:cosine_dn=1,period_dn=290",
         "ambient_drift:relative_a_second=0.01,time_constant_s=3.3",
         "ambient_flicker:cosine=0.05,frequency_hz=103.1",
@@ -147,7 +147,6 @@ mod tests {
         "illumination_drift:relative=0.02,time_constant_s=7",
         "illumination_droop:relative=0.01,time_constant_s=0.03",
         "image_lag:share=0.02,last_step_before_first=-1",
-        "lens_scatter:share=0.01,decay_length_of_width=0.15",
         "multi_camera_interference:cosine_dn=1,beat_hz=0.83",
         "multipath_interference:relative_amplitude=0.1,wall_distance_m=0.7",
         "phase_drift:drift_rad=0.01,time_constant_s=7",
