@@ -13,8 +13,13 @@ use std::path::{Path, PathBuf};
 const SIZE: &str = "12x10";
 
 fn campaign(folder: &Path, size: &str, recordings: &str, effects: &[&str]) -> PathBuf {
+    campaign_of(folder, size, recordings, &concealed(effects))
+}
+
+/// The same with other `options`.
+fn campaign_of(folder: &Path, size: &str, recordings: &str, options: &[&str]) -> PathBuf {
     let own = ["--size", size, "--seed", "31", "--recordings", recordings];
-    simulated(folder.join("campaign"), &[&own[..], &concealed(effects)].concat())
+    simulated(folder.join("campaign"), &[&own[..], options].concat())
 }
 
 /// `code` with `more`, which need not be whole, rounded up or down as a chance of the sample's own says.
@@ -198,12 +203,8 @@ fn a_loss_of_contrast_is_a_mismatch_in_time() {
     let folder = tempfile::tempdir().unwrap();
     let library = folder.path().join("library.toml");
     std::fs::write(&library, CONTRAST).unwrap();
-    let library = library.to_str().unwrap();
-    let options =
-        ["--size", SIZE, "--seed", "31", "--recordings", "four-sweep,four-rail", "--library", library];
-    let campaign =
-        simulated(folder.path().join("campaign"), &[&options[..], &concealed(&["contrast_loss"])].concat());
-    let verdict = verdict(&campaign);
+    let options = ["--library", library.to_str().unwrap(), "--effect", "contrast_loss"];
+    let verdict = verdict(&campaign_of(folder.path(), SIZE, "four-sweep,four-rail", &options));
     is_unexplained(&verdict, "time_s");
     let shape = verdict["located"][0]["shape"].as_str().unwrap();
     assert!(shape.starts_with("contrast, at "), "{shape}");
