@@ -74,6 +74,7 @@ fn difference_dn(world: &World, told: &World, known: Known, flaws: &[&Flaw], eff
         obliquity: described.obliquities(),
         background_m: pixels.iter().map(|pixel| world.scene.background_m * pixel.obliquity).collect(),
         phase_rad: pixels.iter().map(|pixel| pixel.delay_rad - world.waveform.crest_rad()).collect(),
+        at_frequencies: Vec::new(),
         constant_1m_dn: amplitude_1m_dn.iter().map(|amplitude| amplitude * world.waveform.mean()).collect(),
         amplitude_1m_dn,
         ambient_dn: light(|pixel| pixel.ambient_e).into(),

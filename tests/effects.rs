@@ -58,6 +58,7 @@ fn memory(chain: &Chain, deviate: f64) -> Memory {
             evenly_dn: before_dn.clone(),
             again_dn: before_dn.clone(),
             kept_dn: before_dn,
+            rested_s: 0.0,
         })),
         deviates: vec![deviate; chain.effects().len()],
         pixel_deviates: Draws::of(2, 1).normal(pixels).iter().map(|d| deviate * d).collect(),

@@ -107,6 +107,15 @@ fn a_lag_over_the_pause_between_sets_is_no_jitter() {
     assert!((found - 0.01).abs() < 4.0 * sigma, "{found} +- {sigma}");
 }
 
+/// Pixels that are emptied in the pauses of a rail keep charge from set to set where these come back to back.
+#[test]
+fn a_lag_may_know_the_pauses() {
+    let verdict = explained("four-motion,wdft-rail", "image_lag:share=0.01,last_step_before_first=-4");
+    assert_eq!(parameter(&verdict, "last_step_before_first").0, -4.0, "{verdict:#}");
+    let (found, sigma) = parameter(&verdict, "share");
+    assert!((found - 0.01).abs() < 4.0 * sigma, "{found} +- {sigma}");
+}
+
 /// A texture that moves within the target's outline, which stays.
 #[test]
 fn a_texture_that_moves_is_named() {
@@ -242,6 +251,27 @@ fn two_modulation_frequencies_are_clean_beside_a_background() {
     let verdict = verdict(&campaign);
     assert_eq!(verdict["verdict"], "clean", "{verdict:#}");
     assert_eq!(verdict["provenance"]["recordings"].as_array().unwrap().len(), 3, "{verdict:#}");
+}
+
+/// Where the phases of all pixels begin is another at each frequency, and nobody states it: that is no mismatch, and what there is beside it is named.
+#[test]
+fn phases_begin_anywhere_at_another_frequency() {
+    const RAD: f64 = 1.0;
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str, effects: &[&str]| {
+        let turned =
+            |other: &mut Recording| other.sets.iter_mut().for_each(|set| set.phase_offset_rad += RAD);
+        verdict(&at_two_frequencies(&folder.path().join(name), effects, turned))
+    };
+    let clean = of("clean", &[]);
+    assert_eq!(clean["verdict"], "clean", "{clean:#}");
+    let [own] = &clean["provenance"]["own_phases"].as_array().unwrap()[..] else { panic!("{clean:#}") };
+    let found = own["phase_rad"].as_f64().unwrap();
+    assert!((found + RAD).abs() < 0.01 && own["times"] == 1.0 && own["frequency_hz"] == 30e6, "{own:#}");
+    let scaled = of("scaled", &["phase_step_scale:relative=0.01"]);
+    assert_eq!((names(&scaled), &scaled["verdict"]), (vec!["phase_step_scale".into()], &json!("explained")));
+    let (found, sigma) = parameter(&scaled, "relative");
+    assert!((found - 0.01).abs() < 4.0 * sigma && sigma < 0.001, "{found} +- {sigma}");
 }
 
 /// Where amplitudes are calibrated for emitters on one side, they change the phase alone; what that adds over the columns, two frequencies see: it is no skew.

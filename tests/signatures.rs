@@ -29,6 +29,7 @@ fn row(amplitude_dn: &[f64]) -> Pixels {
         obliquity: vec![1.0; count],
         background_m: vec![1.0; count],
         phase_rad: vec![0.0; count],
+        at_frequencies: Vec::new(),
         amplitude_1m_dn: amplitude_dn.to_vec(),
         constant_1m_dn: amplitude_dn.iter().map(|a| a * ACTIVE / A).collect(),
         ambient_dn: vec![AMBIENT; count].into(),

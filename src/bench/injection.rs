@@ -141,7 +141,7 @@ mod tests {
             ("fixed_point:bits_cut=2.5", "bits_cut = 2.5\n  expected: a whole number from 0 to 16 bit"),
             (
                 "image_lag:last_step_before_first=-2.5",
-                "last_step_before_first = -2.5\n  expected: one of 0, -1, -2, -3, 1",
+                "last_step_before_first = -2.5\n  expected: one of 0, -1, -2, -3, -4, 1",
             ),
             ("image_lag:share", "parameter=value"),
         ] {

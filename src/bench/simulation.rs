@@ -59,7 +59,7 @@ impl Simulation<'_> {
         let before = self.chain.looks_back().then(|| match before {
             Some(before_dn) => {
                 let [evenly_dn, again_dn] = [before_dn.clone(), before_dn.clone()];
-                Arc::new(Before { evenly_dn, again_dn, kept_dn: before_dn })
+                Arc::new(Before { evenly_dn, again_dn, kept_dn: before_dn, rested_s: 0.0 })
             }
             None => {
                 let deviates =

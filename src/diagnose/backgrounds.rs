@@ -1,7 +1,7 @@
 //! What stands still at a distance that nobody knows.
 
 use super::data::Take;
-use std::collections::BTreeMap;
+use super::frequencies::{Frequency, usual};
 
 /// Has pixels that see the background, all but the `target`, count at one modulation frequency alone: that of most frames.
 ///
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// camera's light there is no phase.
 pub fn at_one_frequency(takes: &mut [Take], target: &[bool]) {
     let Some(usual) = usual(takes) else { return };
-    let is_other = |take: &Take| frequency_of(take).is_some_and(|(frequency, _)| frequency != usual.0);
+    let is_other = |take: &Take| Frequency::of(take).is_some_and(|frequency| frequency != usual);
     for take in takes.iter_mut().filter(|take| is_other(take)) {
         for frame in take.signal_dn.chunks_mut(target.len().max(1)) {
             let beyond = frame.iter_mut().zip(target).filter(|(_, is_target)| !**is_target);
@@ -20,25 +20,7 @@ pub fn at_one_frequency(takes: &mut [Take], target: &[bool]) {
 
 /// The modulation frequency at which the background counts, Hz; nothing where there is one frequency alone.
 pub fn counts_at_hz(takes: &[Take]) -> Option<f64> {
-    usual(takes).map(|(_, frequency_hz)| frequency_hz)
-}
-
-/// A recording's modulation frequency, to a millionth, and as it is, Hz; none without the camera's light.
-fn frequency_of(take: &Take) -> Option<(i64, f64)> {
-    let lit = take.moments.iter().find(|moment| moment.lit)?;
-    Some(((1e6 * lit.frequency_hz.ln()).round() as i64, lit.frequency_hz))
-}
-
-/// That of most frames, of several.
-fn usual(takes: &[Take]) -> Option<(i64, f64)> {
-    let mut frames = BTreeMap::<i64, (usize, f64)>::new();
-    for take in takes {
-        if let Some((frequency, frequency_hz)) = frequency_of(take) {
-            frames.entry(frequency).or_insert((0, frequency_hz)).0 += take.moments.len();
-        }
-    }
-    let usual = frames.iter().max_by_key(|(_, (count, _))| *count).filter(|_| frames.len() > 1);
-    usual.map(|(&frequency, &(_, frequency_hz))| (frequency, frequency_hz))
+    usual(takes).map(|frequency| frequency.hz)
 }
 
 #[cfg(test)]

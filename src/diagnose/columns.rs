@@ -275,6 +275,19 @@ impl<'a> Tangents<'a> {
     pub fn count(&self) -> usize {
         self.count
     }
+
+    /// Number of phases that all pixels have in common, at one modulation frequency each.
+    pub fn common(&self) -> usize {
+        self.chains.first().map_or(0, |chains| chains.base.pixels.at_frequencies.len())
+    }
+
+    /// The number of the phase that all pixels have in common in frame `index` of recording `take`, and the tangents by it: a value a pixel of the `frame`.
+    pub fn of_common(&self, take: usize, index: usize, frame: &Frame) -> Option<(usize, Vec<f64>)> {
+        let pixels = &self.chains[take].base.pixels;
+        let number = pixels.at_frequency(self.data.takes[take].moments[index].frequency_hz)?;
+        let times = pixels.at_frequencies[number].times;
+        Some((number, frame.own[1].iter().map(|own| own / times).collect()))
+    }
 }
 
 /// The frame of `chain` at `moment`, after one of the frames `before`, with what is at hand in `memory`.

@@ -289,11 +289,12 @@ fn phase(view: &View) -> Acting {
     let position_m = moment.commanded_m();
     let count = view.frame.base.len();
     let amplitude = amplitude_dn(view);
+    let (times, all_rad) = view.pixels.own_phase_at(moment.frequency_hz);
     let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; OF_RANGE];
     for pixel in (0..count).filter(|&pixel| view.tells(pixel)) {
         let range_m = position_m * view.pixels.obliquity[pixel];
-        let phase =
-            phase_rad(range_m, moment.frequency_hz) + view.pixels.phase_rad[pixel] - moment.offset_rad;
+        let own_rad = times * view.pixels.phase_rad[pixel] + all_rad;
+        let phase = phase_rad(range_m, moment.frequency_hz) + own_rad - moment.offset_rad;
         let angle = moment.step_rad - phase;
         let (once, wave_once) = (cos_sin(phase), cos_sin(angle));
         let (mut turned, mut wave) = ((1.0, 0.0), wave_once);

@@ -2,11 +2,12 @@
 
 use super::columns::{Column, Tangents};
 use super::data::Data;
-use super::gram::{Gram, Projected, Whitened};
+use super::gram::{Gram, Whitened};
 use super::lines::Series;
 use super::noise::Noise;
 use super::pieces::Piece;
-use super::settling::{moved, settled};
+use super::projected::Projected;
+use super::settling::settled;
 use super::split::split_anew;
 use super::start::linear;
 use super::stride::{Stride, bounded_step, is_shape};
@@ -346,7 +347,7 @@ impl Round {
         mut pieces: Vec<Piece>,
         theta: &DVector<f64>,
     ) -> (Arc<Pixels>, Vec<Piece>) {
-        let pixels = Arc::new(moved(pixels, &self.projected.own(theta), 1.0));
+        let pixels = Arc::new(self.projected.moved(pixels, theta, 1.0));
         for (column, step) in self.columns.iter().zip(theta.iter()) {
             let piece = &mut pieces[column.piece];
             let parameter = &piece.effect.parameters[column.parameter];

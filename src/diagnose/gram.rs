@@ -11,6 +11,7 @@ use super::in_order::joined;
 use super::inverse::inverse;
 use super::noise::Noise;
 use super::panels::lower_product;
+use super::projected::{Common, Projected, own_of};
 use super::set_errors::{self, Jitter, SetErrors, of_reading};
 use super::whiten::{tails, whiten};
 use crate::widest::widest;
@@ -26,8 +27,10 @@ pub struct Gram {
     errors: Vec<SetErrors>,
     /// What frames are off by at random.
     jitter: Jitter,
-    /// Columns that are solved together, each block by itself.
+    /// Columns that are solved together, each block by itself; last those of the phases that all pixels have at a frequency.
     blocks: Vec<Block>,
+    /// How many the latter are.
+    common: usize,
     /// Sum of squares of the whitened residual, and samples.
     pub chi2: f64,
     /// Samples that count.
@@ -81,12 +84,13 @@ const FRAMES: usize = 4;
 const TOGETHER: usize = 64;
 
 impl Gram {
-    fn empty(pixels: usize, columns: &[usize], sets: usize, jitter: Jitter) -> Self {
+    fn empty(pixels: usize, columns: &[usize], sets: usize, jitter: Jitter, common: usize) -> Self {
         Self {
             own: vec![vec![0.0; pixels]; PAIRS.len()],
             errors: vec![SetErrors::default(); sets],
             jitter,
             blocks: columns.iter().map(|&columns| Block::empty(pixels, columns, sets)).collect(),
+            common,
             chi2: 0.0,
             samples: 0,
             ln_variance: 0.0,
@@ -146,7 +150,8 @@ impl Gram {
         merge: &(dyn Fn(T, T) -> T + Sync),
     ) -> (Self, T) {
         let sets = data.sets();
-        let columns: Vec<usize> = columns.iter().map(|columns| columns + tangents.count()).collect();
+        let (common, own) = (tangents.common(), columns);
+        let columns: Vec<usize> = own.iter().map(|own| tangents.count() + own + common).collect();
         let (pixels, count) = (data.pixels(), sets.len());
         // The same on every machine: what looks from set to set does not look from one chunk to the next.
         let chunk = sets.len().div_ceil(CHUNKS).clamp(CHUNK.0, CHUNK.1);
@@ -154,7 +159,7 @@ impl Gram {
             sets.into_iter().enumerate().filter(|&(n, _)| counts(n)).collect();
         let is_few = indexed.len() < FEW;
         let of_chunk = |sets: &[(usize, (usize, usize))]| {
-            let mut sums = Self::empty(pixels, &columns, count, noise.jitter);
+            let mut sums = Self::empty(pixels, &columns, count, noise.jitter, common);
             let mut visited = T::default();
             for &(number, (take, set)) in sets {
                 let frames = data.takes[take].frames;
@@ -166,7 +171,12 @@ impl Gram {
                 let made = |index: usize| -> Made {
                     let frame = tangents.frame(take, index);
                     let whitened = whiten(data, take, index, &frame.base, noise);
-                    let filled = fill(take, index, &frame);
+                    let mut filled = fill(take, index, &frame);
+                    if let Some((number, values)) = tangents.of_common(take, index, &frame) {
+                        for (filled, own) in filled.iter_mut().zip(own) {
+                            filled.column(own + number, values.clone());
+                        }
+                    }
                     (index, frame, whitened, filled)
                 };
                 let mut add = |(index, frame, (roots, residual), filled): Made| {
@@ -194,7 +204,7 @@ impl Gram {
             (sums, visited)
         };
         joined(&indexed, chunk, of_chunk, |(a, x), (b, y)| (a.join(b), merge(x, y)))
-            .unwrap_or_else(|| (Self::empty(pixels, &columns, count, noise.jitter), T::default()))
+            .unwrap_or_else(|| (Self::empty(pixels, &columns, count, noise.jitter, common), T::default()))
     }
 
     /// With a frame, and what each block has there beside the columns that all share; the blocks side by side, where these are.
@@ -328,11 +338,14 @@ impl Gram {
             settled += taken.chi2;
             freedom += taken.ln_variance;
         }
+        let common = Common::fitted(self.common, &block.full, &mut full, &mut solved);
+        settled += common.settled;
+        let residual = residual - self.common;
         let matrix = full.view((0, 0), (residual, residual)).into_owned();
         let vector = full.view((0, residual), (residual, 1)).column(0).into_owned();
         let raw = DVector::from_fn(residual, |column, _| block.full[(column, column)]);
         let chi2 = full[(residual, residual)] + freedom + self.ln_variance + self.beyond;
-        Projected { matrix, vector, raw, jitter_m2, chi2, settled, solved }
+        Projected { matrix, vector, raw, jitter_m2, chi2, settled, solved, common }
     }
 }
 
@@ -346,54 +359,4 @@ struct Solved {
     left: Vec<Option<DMatrix<f64>>>,
     /// What they leave of the readings' errors of all sets, where these are few.
     coupled: Option<Coupled>,
-}
-
-/// A pixel's own numbers among those of all, number after number.
-fn own_of(all: &[f64], pixel: usize) -> Vector4<f64> {
-    let pixels = all.len() / OWN;
-    Vector4::from_fn(|number, _| all[number * pixels + pixel])
-}
-
-impl Projected {
-    /// Takes some columns as `fitted`: what they share with the others is theirs.
-    pub fn give_way(&mut self, fitted: impl IntoIterator<Item = usize>) {
-        for fitted in fitted {
-            let pivot = self.matrix[(fitted, fitted)];
-            if pivot > 1e-9 * self.raw[fitted] {
-                let row = self.matrix.column(fitted).into_owned();
-                let step = self.vector[fitted] / pivot;
-                self.vector.axpy(-step, &row, 1.0);
-                self.matrix.ger(-pivot.recip(), &row, &row, 1.0);
-            }
-        }
-    }
-}
-
-/// The normal equations of the columns alone.
-#[derive(Debug, Clone)]
-pub struct Projected {
-    /// Fisher information.
-    pub matrix: DMatrix<f64>,
-    /// Score.
-    pub vector: DVector<f64>,
-    /// Diagonal of the information before anything was projected out.
-    pub raw: DVector<f64>,
-    /// Variance of the encoder's reading, m².
-    pub jitter_m2: f64,
-    /// Chi squared after the projection, what the freedom of the sets' errors costs, the logarithms of the noise's variances, and what residuals have
-    /// beyond what they count as: minus twice the logarithm of the likelihood, but for a constant.
-    pub chi2: f64,
-    /// Chi squared that the pixels' own numbers take away by a step.
-    pub settled: f64,
-    /// Change of the pixels' own numbers a unit of each column, and, last, by the residual: (4 x pixels) x (columns + 1), number after number.
-    solved: DMatrix<f64>,
-}
-
-impl Projected {
-    /// How the pixels' own numbers move with a step `theta` of the columns.
-    pub fn own(&self, theta: &DVector<f64>) -> Vec<Vector4<f64>> {
-        let last = theta.len();
-        let own = self.solved.column(last) - self.solved.columns(0, last) * theta;
-        (0..own.len() / OWN).map(|pixel| own_of(own.as_slice(), pixel)).collect()
-    }
 }

@@ -7,11 +7,12 @@ use super::coordinates::{COORDINATES, Coordinate, View};
 use super::data::Data;
 use super::evidence::{Block, Evidence, Greatest};
 use super::fit::Fit;
-use super::gram::{Gram, Projected, Whitened};
+use super::gram::{Gram, Whitened};
 use super::jitters::Jitters;
 use super::noise::Noise;
 use super::parts::parts;
 use super::profiles::{Profile, Profiles};
+use super::projected::Projected;
 use super::ranges::Ranges;
 
 /// Evidence (nats) from which on a coordinate counts as located.

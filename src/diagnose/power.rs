@@ -1,9 +1,9 @@
 //! What the recordings would have shown: the smallest strength of each effect that 95 of 100 campaigns like this one show.
 
 use super::evidence::{Block, is_seen, powerful_rho};
-use super::gram::Projected;
 use super::pass::THRESHOLD;
 use super::pieces::{Candidate, Piece};
+use super::projected::Projected;
 use std::collections::BTreeMap;
 
 /// What the recordings would show of an effect, in its usual shape.

@@ -56,7 +56,9 @@ const AXES: [Axis; 8] = [
         bins: BINS,
         place: Over::Sample(|s| {
             let range_m = s.moment.commanded_m() * s.fit.pixels.obliquity[s.pixel];
-            let phase = phase_rad(range_m, s.moment.frequency_hz) + s.fit.pixels.phase_rad[s.pixel];
+            let (times, all_rad) = s.fit.pixels.own_phase_at(s.moment.frequency_hz);
+            let own_rad = times * s.fit.pixels.phase_rad[s.pixel] + all_rad;
+            let phase = phase_rad(range_m, s.moment.frequency_hz) + own_rad;
             ((s.moment.step_rad + s.moment.offset_rad - phase) / TAU).rem_euclid(1.0)
         }),
         at: |_, place| place,

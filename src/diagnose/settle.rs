@@ -3,6 +3,7 @@
 use super::data::Data;
 use super::lines::{Series, SetSeen};
 use super::noise::Noise;
+use super::own_phases::OwnPhases;
 use super::places::APART_M;
 use super::split::BACKGROUND_M;
 use crate::physics::cos_sin;
@@ -25,9 +26,12 @@ pub fn with_mask(data: &Data, noise: Noise) -> Option<(Data, usize)> {
     let count = data.pixels();
     let mut normal = vec![[Normal::default(); 2]; count];
     let obliquity = data.obliquities();
+    let own_phases = OwnPhases::of(data, &|_| true);
+    let besides_rad = own_phases.besides_rad(count);
     normal.par_chunks_mut(TOGETHER).enumerate().for_each(|(chunk, normal)| {
         let first = chunk * TOGETHER;
         for take in &data.takes {
+            let besides_rad = &besides_rad[own_phases.number(take)][first..];
             for (index, moment) in take.moments.iter().enumerate().filter(|(_, moment)| moment.lit) {
                 let position_m = moment.commanded_m();
                 let angle = moment.step_rad + moment.offset_rad;
@@ -38,6 +42,7 @@ pub fn with_mask(data: &Data, noise: Noise) -> Option<(Data, usize)> {
                     let ranges_m = [position_m * obliquity[first + pixel], BACKGROUND_M];
                     for (sums, range_m) in normal[pixel].iter_mut().zip(ranges_m) {
                         let light = (range_m * range_m).recip();
+                        let angle = angle - besides_rad[pixel];
                         let (cosine, sine) = cos_sin(angle - phase_rad(range_m, moment.frequency_hz));
                         sums.add([light * cosine, light * sine, light, 1.0], signal, weight);
                     }

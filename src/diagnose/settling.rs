@@ -8,7 +8,7 @@ use super::noise::Noise;
 use super::pieces::Piece;
 use super::whiten::{tails, whiten};
 use crate::physics::Pixels;
-use nalgebra::{DVector, Vector4};
+use nalgebra::DVector;
 use std::sync::Arc;
 
 /// Shares of its step that a pixel tries, until one leads it downhill: where light and response are far from those that were measured, a whole one may lead
@@ -106,10 +106,11 @@ pub fn settled(
     }
     for _ in 0..rounds {
         let (tangents, _) = Tangents::new(data, &here, &known, &[]);
-        let step = Gram::of(data, &tangents, noise, counts).project(None).own(&DVector::zeros(0));
+        let projected = Gram::of(data, &tangents, noise, counts).project(None);
         let (start, (no_numbers, sum)) = (Arc::clone(&here), total(&losses));
         for share in SHARES {
-            if judges.take_better(&mut here, &mut losses, &Arc::new(moved(&start, &step, share))) {
+            let there = Arc::new(projected.moved(&start, &DVector::zeros(0), share));
+            if judges.take_better(&mut here, &mut losses, &there) {
                 break;
             }
         }
@@ -118,15 +119,6 @@ pub fn settled(
         }
     }
     here
-}
-
-/// The pixels with their own numbers moved by a `share` of a step.
-pub fn moved(pixels: &Pixels, own: &[Vector4<f64>], share: f64) -> Pixels {
-    let mut moved = pixels.clone();
-    for (number, values) in own_values_mut(&mut moved).into_iter().enumerate() {
-        values.iter_mut().zip(own).for_each(|(value, step)| *value += share * step[number]);
-    }
-    moved
 }
 
 #[cfg(test)]

@@ -5,9 +5,10 @@ use super::columns::{Column, Frame, Tangents};
 use super::data::Data;
 use super::evidence::VISIBLE;
 use super::found::Found;
-use super::gram::{Gram, Projected};
+use super::gram::Gram;
 use super::noise::Noise;
 use super::overtones::OF_CODES;
+use super::projected::Projected;
 use nalgebra::{DMatrix, DVector};
 
 /// Levels that are looked at, evenly apart in the signal's root: where most codes are, at a small signal, they are nearer to each other.

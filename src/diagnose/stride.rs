@@ -1,8 +1,8 @@
 //! Steps of Gauss and Newton, whole ones and others, within the bounds of numbers.
 
 use super::columns::Column;
-use super::gram::Projected;
 use super::pieces::Piece;
+use super::projected::Projected;
 use nalgebra::{DMatrix, DVector};
 
 /// What is taken of a step.

@@ -119,6 +119,7 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     answer.provenance["overstated"] = json!(overstated);
     answer.provenance["background_counts_at_hz"] = json!(counts_at_hz(&data.takes));
+    answer.provenance["own_phases"] = json!(judgement.fit.pixels.at_frequencies);
     Diagnosis { judgement, held_out, overstated, left_out, answer, geometry: data.geometry() }
 }
 

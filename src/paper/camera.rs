@@ -134,6 +134,7 @@ impl Camera {
             obliquity: vec![1.0],
             background_m: vec![1.0],
             phase_rad: vec![0.0],
+            at_frequencies: Vec::new(),
             amplitude_1m_dn: vec![AMPLITUDE_1M_DN],
             constant_1m_dn: vec![constant_ratio * AMPLITUDE_1M_DN],
             ambient_dn: vec![AMBIENT_DN].into(),

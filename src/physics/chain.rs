@@ -119,7 +119,8 @@ impl Chain {
         let evenly_dn = arrive(evenly);
         let again_dn = if again == evenly { evenly_dn.clone() } else { arrive(again) };
         let kept_dn = if kept == again { again_dn.clone() } else { arrive(kept) };
-        Arc::new(Before { evenly_dn, again_dn, kept_dn })
+        // The even camera's frame is the one that begins a frame period before.
+        Arc::new(Before { evenly_dn, again_dn, kept_dn, rested_s: evenly.time_s - kept.time_s })
     }
 
     /// What light brings to the pixels at `moment`, before charge goes anywhere, DN.

@@ -86,6 +86,8 @@ pub struct Before {
     pub again_dn: PerPixel,
     /// In a camera that rests between sets.
     pub kept_dn: PerPixel,
+    /// How long that one has rested since, s: 0 where the frames come one frame period after the other.
+    pub rested_s: f64,
 }
 
 /// A frame in the making. Effects change what stands here when their place comes.
@@ -263,12 +265,13 @@ impl Exposure {
         let over_rows_m = self.motion_share * self.way_over_rows_m();
         let (pixels, frequency_hz) = (&*self.pixels, self.frequency_hz);
         let (mut ranges, mut phases) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
+        let (times, all_rad) = pixels.own_phase_at(frequency_hz);
         let (ranges_m, phases_rad) = (&mut ranges[..], &mut phases[..]);
         widest!((pixels: &'a Pixels, position_m: f64, over_rows_m: f64, frequency_hz: f64,
-                 ranges_m: &'a mut [f64], phases_rad: &'a mut [f64]) {
+                 times: f64, all_rad: f64, ranges_m: &'a mut [f64], phases_rad: &'a mut [f64]) {
             fill_ranges_m(pixels, position_m, over_rows_m, ranges_m);
             for ((phase, range_m), own_rad) in phases_rad.iter_mut().zip(ranges_m).zip(&pixels.phase_rad) {
-                *phase = phase_rad(*range_m, frequency_hz) + own_rad;
+                *phase = phase_rad(*range_m, frequency_hz) + (times * own_rad + all_rad);
             }
         });
         (self.range_m, self.phase_rad) = (ranges.into(), phases.into());

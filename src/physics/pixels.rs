@@ -2,6 +2,23 @@
 
 use super::per_pixel::PerPixel;
 use crate::frames::Geometry;
+use serde::Serialize;
+
+/// What pixels' own phases are at another modulation frequency than the one at which they stand.
+///
+/// Cables and clock trees delay, so that a phase grows with the frequency, and a frequency's own synthesiser begins anywhere: no recording states that.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AtFrequency {
+    /// The modulation frequency, Hz.
+    pub frequency_hz: f64,
+    /// So many times the pixel's own phase is there: 1 where it is a phase, the ratio of the frequencies where it is a delay.
+    pub times: f64,
+    /// What all pixels have there besides, rad.
+    pub phase_rad: f64,
+}
+
+/// Modulation frequencies that differ by less of themselves are one.
+const SAME_FREQUENCY: f64 = 1e-6;
 
 /// The pixels of a camera before a scene. Arrays have one entry a pixel, row by row.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +33,8 @@ pub struct Pixels {
     pub background_m: Vec<f64>,
     /// Phase of its own (fixed pattern), rad.
     pub phase_rad: Vec<f64>,
+    /// What these are at other modulation frequencies: the same, where nothing is said.
+    pub at_frequencies: Vec<AtFrequency>,
     /// Amplitude of the fundamental, DN, of what it sees at 1 m.
     pub amplitude_1m_dn: Vec<f64>,
     /// The constant part of the camera's own light, DN, at 1 m.
@@ -36,6 +55,18 @@ impl Pixels {
     /// Number of pixels.
     pub fn count(&self) -> usize {
         self.geometry.pixels()
+    }
+
+    /// What is said of the pixels' own phases at a modulation frequency, by its number.
+    pub fn at_frequency(&self, frequency_hz: f64) -> Option<usize> {
+        let is_it = |at: &AtFrequency| (at.frequency_hz / frequency_hz - 1.0).abs() < SAME_FREQUENCY;
+        self.at_frequencies.iter().position(is_it)
+    }
+
+    /// How many times the pixels' own phases count at a modulation frequency, and what all pixels have besides, rad.
+    pub fn own_phase_at(&self, frequency_hz: f64) -> (f64, f64) {
+        let at = self.at_frequency(frequency_hz).map(|number| self.at_frequencies[number]);
+        at.map_or((1.0, 0.0), |at| (at.times, at.phase_rad))
     }
 
     /// Column and row from the centre, as a share of the sensor's width and height: −0.5 to 0.5.
@@ -91,6 +122,7 @@ pub(super) fn plain(geometry: Geometry) -> Pixels {
         obliquity: of(1.0),
         background_m: of(4.0),
         phase_rad: of(0.0),
+        at_frequencies: Vec::new(),
         amplitude_1m_dn: of(1.0),
         constant_1m_dn: of(1.0),
         ambient_dn: of(0.0).into(),

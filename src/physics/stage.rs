@@ -91,6 +91,7 @@ impl Stage {
             geometry,
             obliquity: plane.iter().map(|s| s.map_or(1.0, |s| s.range_m)).collect(),
             background_m,
+            at_frequencies: Vec::new(),
             phase_rad: fixed_pattern.iter().map(|draw| self.fixed_pattern_rad * draw).collect(),
             constant_1m_dn: amplitude_1m_dn.iter().map(|a| sensor.constant_ratio * a).collect(),
             amplitude_1m_dn,

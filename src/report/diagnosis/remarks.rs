@@ -27,7 +27,12 @@ pub fn remarks(diagnosis: &Diagnosis) -> Vec<String> {
         format!("The camera states more than there is of {words}. What is weaker than it states is not seen.")
     });
     let left_out = sentences(&diagnosis.left_out).into_iter().map(|sentence| format!("Left out: {sentence}"));
-    shared.chain(overstated).chain(left_out).collect()
+    let own_phases = diagnosis.judgement.fit.pixels.at_frequencies.iter().map(|at| {
+        let own = if at.times == 1.0 { "as they are, and" } else { "as delays make them, and" };
+        let (hz, rad) = (at.frequency_hz, at.phase_rad);
+        format!("At {} MHz the pixels' own phases count {own} {rad:.4} rad besides, for all pixels alike: no recording states that.", hz / 1e6)
+    });
+    shared.chain(overstated).chain(own_phases).chain(left_out).collect()
 }
 
 /// What these recordings would have shown, of the first effects.
