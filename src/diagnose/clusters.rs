@@ -50,18 +50,21 @@ pub const LEVELS: [Level; 6] =
     [Level::Set, Level::Frame, Level::Row, Level::Column, Level::Neighbours, Level::Pixel];
 
 /// In which way samples may be off together: by so much light (DN), in proportion to the signal, in phase (rad), as if the target
-/// were where it is at another time (s), or, of a set, at another place (m), or, of a set too, with another velocity (m/s).
-pub const MODES: [&str; 5] = ["offset", "gain", "phase", "position", "velocity"];
+/// were where it is at another time (s), or, of a set, at another place (m), or, of a set too, with another velocity (m/s), or in proportion to the camera's own light.
+pub const MODES: [&str; 6] = ["offset", "gain", "phase", "position", "velocity", "light"];
 /// Of [`MODES`], the phase.
 pub const PHASE: usize = 2;
 /// Of [`MODES`], the position.
 pub const POSITION: usize = 3;
+/// Of [`MODES`], the velocity.
+const VELOCITY: usize = 4;
 
 /// The first levels, of which there are few.
 const FEW: usize = 2;
 const STEPS: usize = 14;
 /// Least and greatest standard deviation of each mode; a frame's position is a time, s.
-pub const ENDS: [(f64, f64); 5] = [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03), (1e-4, 0.3)];
+pub const ENDS: [(f64, f64); 6] =
+    [(0.03, 100.0), (3e-5, 0.1), (3e-5, 0.1), (1e-5, 0.03), (1e-4, 0.3), (3e-5, 0.1)];
 
 fn variance(mode: usize, step: f64) -> f64 {
     let (low, high) = ENDS[mode];
@@ -134,24 +137,27 @@ impl Clusters {
         let sizes = [1, geometry.height, width, blocks * geometry.height.div_ceil(2), geometry.pixels()];
         for mode in 0..MODES.len() {
             // A set is at another place as a whole; a frame is only if it is taken at another time of a movement.
-            if mode >= 3 {
-                let per = if mode == 3 { 1.0 } else { from_middle_s };
+            if mode == POSITION || mode == VELOCITY {
+                let per = if mode == POSITION { 1.0 } else { from_middle_s };
                 for pixel in 0..whitened.roots.len() {
                     let value = whitened.roots[pixel] * frame.position[pixel] * per;
                     self.set[mode].0 += value * whitened.residual[pixel];
                     self.set[mode].1 += value * value;
                 }
-                if mode > 3 || velocity_m_s == 0.0 {
+                if mode == VELOCITY || velocity_m_s == 0.0 {
                     continue;
                 }
             }
-            let mut sums = sizes.map(|size| vec![(0.0, 0.0); size]);
+            // A pixel alone has noise, whatever it is proportional to.
+            let levels = if mode < 2 { sizes.len() } else { 1 };
+            let mut sums: Vec<_> = sizes[..levels].iter().map(|&size| vec![(0.0, 0.0); size]).collect();
             for pixel in 0..whitened.roots.len() {
                 let shape = match mode {
                     0 => 1.0,
                     1 => frame.base[pixel],
-                    2 => frame.own[1][pixel],
-                    _ => velocity_m_s * frame.position[pixel],
+                    PHASE => frame.own[1][pixel],
+                    POSITION => velocity_m_s * frame.position[pixel],
+                    _ => frame.base[pixel] - frame.ambient[pixel],
                 };
                 let value = whitened.roots[pixel] * shape;
                 let (row, column) = (pixel / width, pixel % width);
@@ -162,7 +168,7 @@ impl Clusters {
                     sums[place].1 += value * value;
                 }
             }
-            if mode != 3 {
+            if mode != POSITION {
                 self.set[mode].0 += sums[0][0].0;
                 self.set[mode].1 += sums[0][0].1;
             }
@@ -176,9 +182,7 @@ impl Clusters {
                     waves.add(whitened.take, moment.time_s, moment.frame_period_s, sums);
                 }
             }
-            // A pixel alone has noise, whatever it is proportional to.
-            let levels = if mode < 2 { 5 } else { 1 };
-            for (level, sums) in sums.iter().enumerate().take(levels) {
+            for (level, sums) in sums.iter().enumerate() {
                 inform(&mut self.information[level + 1][mode], sums);
                 match level {
                     0 => self.few[1][mode].push((whitened.take, sums[0])),

@@ -13,13 +13,22 @@ pub fn gaps(group: &[(f64, Sum)]) -> Vec<(f64, f64)> {
     alike.map(|gaps| (gaps.iter().sum::<f64>() / gaps.len() as f64, gaps.len() as f64)).collect()
 }
 
-/// Cycles that samples with these `gaps` see of a line of this frequency, Hz, all added up.
+/// A line that goes through less of a cycle within a group of samples that follow each other most closely is at rest there.
+const AT_REST: f64 = 0.25;
+
+/// Cycles that samples with these `gaps` see of a line of this frequency, Hz, all added up: within groups of samples that follow each other most closely, and from
+/// group to group; of one that is nearly at rest within these, from each sample of a group to that of the next one. (What goes a little forward in each group, and
+/// back again, is a drift to all others.)
 pub fn seen_cycles(gaps: &[(f64, f64)], frequency: f64) -> f64 {
-    let of = |&(gap, count): &(f64, f64)| {
-        let turns = gap * frequency;
-        count * (turns - turns.round()).abs()
-    };
-    gaps.iter().map(of).sum()
+    let seen = |turns: f64| turns - turns.round();
+    let Some(((within, count), between)) = gaps.split_first() else { return 0.0 };
+    let groups = between.iter().map(|(_, count)| count).sum::<f64>() + 1.0;
+    let step = seen(within * frequency);
+    let of_group = count / groups * step;
+    if !between.is_empty() && of_group.abs() < AT_REST {
+        return between.iter().map(|(gap, count)| count * seen(gap * frequency + of_group).abs()).sum();
+    }
+    gaps.iter().map(|(gap, count)| count * seen(gap * frequency).abs()).sum()
 }
 
 #[cfg(test)]
@@ -33,9 +42,12 @@ mod tests {
         let group: Vec<(f64, Sum)> = (0..40).map(|n| (at(n), (0.0, 1.0))).collect();
         let gaps = gaps(&group);
         assert_eq!(gaps.iter().map(|gap| gap.1).collect::<Vec<_>>(), [30.0, 9.0]);
-        // Of 100 Hz half a cycle from set to set; of 50.5 Hz a hundredth and 0.1525 of one.
+        // Of 100 Hz half a cycle from set to set; of 55 Hz a tenth and 0.275 of one.
         assert!((seen_cycles(&gaps, 100.0) - 4.5).abs() < 1e-4);
-        assert!((seen_cycles(&gaps, 50.5) - (30.0 * 0.01 + 9.0 * 0.1525)).abs() < 1e-4);
+        assert!((seen_cycles(&gaps, 55.0) - (30.0 * 0.1 + 9.0 * 0.275)).abs() < 1e-4);
+        // Of 51 Hz two hundredths within a set, which is at rest: from set to set 0.005 of one.
+        assert!((seen_cycles(&gaps, 51.0) - 9.0 * 0.005).abs() < 1e-4);
+        assert_eq!(seen_cycles(&[], 51.0), 0.0);
         assert_eq!(seen_cycles(&gaps, 0.0), 0.0);
     }
 

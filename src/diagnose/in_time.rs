@@ -33,14 +33,22 @@ const LIKELIER: f64 = 5.0;
 const BESIDES: f64 = 3.0;
 
 /// Whether most of the errors, of which `of` tells score and information of a frame, and which scatter by `sigma`, is one line in time with a phase of its own in each
-/// recording.
+/// recording; or is one where those of a target that comes nearer are turned over: what shakes a carriage is a place, and no time.
 pub fn is_line(jitters: &Jitters, of: Said, sigma: f64) -> bool {
+    let comes_nearer = |(frame, _): (&Frame, Sum)| frame.velocity_m_s < 0.0;
+    let as_it_is = is_line_where(jitters, of, |_| 1.0, sigma);
+    let turned = |frame: &Frame| if frame.velocity_m_s < 0.0 { -1.0 } else { 1.0 };
+    as_it_is || heard(jitters, of).any(comes_nearer) && is_line_where(jitters, of, turned, sigma)
+}
+
+/// The same of errors times what `sign` says of a frame.
+fn is_line_where(jitters: &Jitters, of: Said, sign: fn(&Frame) -> f64, sigma: f64) -> bool {
     let mut takes = BTreeMap::<usize, Vec<(f64, Sum)>>::new();
     let of_one_set = jitters.frames().windows(2).filter(|pair| pair[0].set == pair[1].set);
     let period_s = usual(of_one_set.map(|pair| pair[1].time_s - pair[0].time_s).collect());
     let beyond_noise: f64 = heard(jitters, of).map(|(_, (score, k))| score * score / k - 1.0).sum();
-    for (frame, sum) in heard(jitters, of) {
-        takes.entry(frame.take).or_default().push((frame.time_s, sum));
+    for (frame, (score, information)) in heard(jitters, of) {
+        takes.entry(frame.take).or_default().push((frame.time_s, (sign(frame) * score, information)));
     }
     let takes: Vec<_> = takes.into_values().collect();
     // As if every frame had the random error: what a line is beside it.
@@ -172,6 +180,27 @@ mod tests {
             assert!(!is_line(&shared, of, 1.4 * SIGMA), "{seed}");
         }
         assert!(!is_line(&Jitters::default(), of, SIGMA));
+    }
+
+    /// What shakes a carriage moves it, whichever way it goes: as times of frames that is turned over by the way back.
+    #[test]
+    fn what_shakes_a_carriage_is_a_line() {
+        let velocity_m_s =
+            |time_s: f64| -> f64 { if (time_s / 1.3).floor() as i64 % 2 == 0 { 0.5 } else { -0.5 } };
+        let shaken = |seed: u64, turns: bool| {
+            let mut jitters = Jitters::default();
+            for frame in phases(seed, |take, time_s, _| line(take, time_s)).frames() {
+                let velocity_m_s = velocity_m_s(frame.time_s - 0.02 * frame.number.0 as f64);
+                let sign = if turns { velocity_m_s.signum() } else { 1.0 };
+                let (score, information) = frame.phase;
+                jitters.add(Frame { phase: (sign * score, information), velocity_m_s, ..*frame });
+            }
+            jitters
+        };
+        for seed in 0..20 {
+            assert!(is_line(&shaken(seed, true), of, SIGMA) && is_line(&shaken(seed, false), of, SIGMA));
+            assert!(!is_line_where(&shaken(seed, true), of, |_| 1.0, SIGMA), "{seed}");
+        }
     }
 
     /// Frames of which this share is hit.

@@ -232,7 +232,7 @@ pub fn is_beyond_forms(ln_bayes: f64, of_forms: f64) -> bool {
 /// Whether frames may be off by as much light as at `random` by phase or time.
 pub fn may_be_of_light(location: &Location, random: &RandomEffect) -> bool {
     let is_of_light = |cluster: &&Cluster| {
-        cluster.level == Level::Frame && matches!(MODES[cluster.mode], "offset" | "gain")
+        cluster.level == Level::Frame && matches!(MODES[cluster.mode], "offset" | "gain" | "light")
     };
     let of_light = location.clusters.iter().filter(is_of_light).map(|cluster| cluster.ln_bayes);
     of_light.fold(0.0, f64::max) + CLUSTER_NATS > random.ln_bayes
@@ -248,7 +248,7 @@ pub fn new_each_time(location: &Location, name: &str) -> f64 {
 pub fn coordinate(cluster: &Cluster) -> &'static str {
     match cluster.level {
         Level::Set if MODES[cluster.mode] == "velocity" => "velocity_m_s",
-        Level::Set if cluster.mode >= 2 => "encoder",
+        Level::Set if matches!(MODES[cluster.mode], "phase" | "position") => "encoder",
         Level::Set => "set",
         Level::Frame => "frame",
         Level::Row => "row",
@@ -272,7 +272,7 @@ pub fn words(cluster: &Cluster) -> String {
     let common = cluster.level.name();
     let unit = match (MODES[cluster.mode], cluster.level) {
         ("offset", _) => " DN",
-        ("gain", _) => "",
+        ("gain" | "light", _) => "",
         ("phase", _) => " rad",
         ("position", Level::Set) => " m",
         ("position", _) => " s of movement",
