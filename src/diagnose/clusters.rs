@@ -155,9 +155,9 @@ impl Clusters {
                 let shape = match mode {
                     0 => 1.0,
                     1 => frame.base[pixel],
-                    PHASE => frame.own[1][pixel],
+                    PHASE => frame.own[1][pixel] / frame.times,
                     POSITION => velocity_m_s * frame.position[pixel],
-                    _ => frame.base[pixel] - frame.ambient[pixel],
+                    _ => frame.base[pixel] - frame.own[3][pixel] * frame.ambient[pixel],
                 };
                 let value = whitened.roots[pixel] * shape;
                 let (row, column) = (pixel / width, pixel % width);

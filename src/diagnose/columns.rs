@@ -72,6 +72,8 @@ pub struct Frame {
     pub base: PerPixel,
     /// Tangents by the pixel's own numbers, `[number][pixel]`.
     pub own: [Vec<f64>; OWN],
+    /// So many times the pixel's own phase counts here: more than once where it is a delay, and the modulation frequency higher.
+    pub times: f64,
     /// Ambient light, DN.
     pub ambient: PerPixel,
     /// By the target's position, DN a metre.
@@ -108,6 +110,13 @@ fn square(geometry: Geometry, pixel: usize) -> usize {
 /// Effects by which a good part of a pixel's signal may be its neighbours' in row and column. What its own numbers change is then not what it changes by when all pixels'
 /// numbers go a step further: a pixel at an edge would be said to follow its neighbour beyond it.
 const OF_BESIDE: [&str; 1] = ["mixed_pixels"];
+
+impl Frame {
+    /// Tangents by the phase of the light, rad, a value a pixel.
+    pub fn phase(&self) -> impl Iterator<Item = f64> {
+        self.own[1].iter().map(|own| own / self.times)
+    }
+}
 
 impl<'a> Tangents<'a> {
     /// The model of `data` with `pixels` and the effects `fitted`; columns for every free number of `fitted` and of `tried`, in this
@@ -268,7 +277,8 @@ impl<'a> Tangents<'a> {
             }
         }
         let columns = patterns.acting;
-        Frame { base, own, ambient, position, columns, count: self.count }
+        let (times, _) = chains.base.pixels.own_phase_at(moment.frequency_hz);
+        Frame { base, own, times, ambient, position, columns, count: self.count }
     }
 
     /// Number of columns.
@@ -285,8 +295,7 @@ impl<'a> Tangents<'a> {
     pub fn of_common(&self, take: usize, index: usize, frame: &Frame) -> Option<(usize, Vec<f64>)> {
         let pixels = &self.chains[take].base.pixels;
         let number = pixels.at_frequency(self.data.takes[take].moments[index].frequency_hz)?;
-        let times = pixels.at_frequencies[number].times;
-        Some((number, frame.own[1].iter().map(|own| own / times).collect()))
+        Some((number, frame.phase().collect()))
     }
 }
 

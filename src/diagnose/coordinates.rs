@@ -51,7 +51,7 @@ fn mode(view: &View, mode: usize) -> Vec<f64> {
     match mode {
         0 => vec![1.0; view.frame.base.len()],
         1 => view.frame.base.to_vec(),
-        2 => view.frame.own[1].clone(),
+        2 => view.frame.phase().collect(),
         _ => contrast(view),
     }
 }
@@ -303,8 +303,8 @@ fn phase(view: &View) -> Acting {
             (turned, wave) = (further(turned, once), further(wave, wave_once));
             let ((cosine, sine), (wave_cosine, wave_sine)) = (turned, wave);
             let at = 6 * (cycles - 1);
-            columns[at][pixel] = cosine * view.frame.own[1][pixel];
-            columns[at + 1][pixel] = sine * view.frame.own[1][pixel];
+            columns[at][pixel] = cosine * view.frame.own[1][pixel] / times;
+            columns[at + 1][pixel] = sine * view.frame.own[1][pixel] / times;
             columns[at + 2][pixel] = cosine * amplitude[pixel];
             columns[at + 3][pixel] = sine * amplitude[pixel];
             columns[at + 4][pixel] = wave_cosine * amplitude[pixel];

@@ -1,20 +1,18 @@
 //! The modulation frequencies of recordings.
 
 use super::data::Take;
-use std::collections::BTreeMap;
+use crate::physics::is_same_frequency;
 
-/// A modulation frequency: what differs by less than a millionth is one.
+/// A modulation frequency: what hardly differs is one.
 #[derive(Debug, Clone, Copy)]
 pub struct Frequency {
     /// As it is, Hz.
     pub hz: f64,
-    /// To a millionth.
-    number: i64,
 }
 
 impl PartialEq for Frequency {
     fn eq(&self, other: &Self) -> bool {
-        self.number == other.number
+        is_same_frequency(self.hz, other.hz)
     }
 }
 
@@ -22,20 +20,25 @@ impl Frequency {
     /// A recording's; none without the camera's light.
     pub fn of(take: &Take) -> Option<Self> {
         let lit = take.moments.iter().find(|moment| moment.lit)?;
-        let hz = lit.frequency_hz;
-        Some(Self { hz, number: (1e6 * hz.ln()).round() as i64 })
+        Some(Self { hz: lit.frequency_hz })
     }
 }
 
-/// Those of several, each with its frames.
+/// Those of several, each with its frames, the lowest first.
 fn all(takes: &[Take]) -> Vec<(Frequency, usize)> {
-    let mut frames = BTreeMap::<i64, (Frequency, usize)>::new();
+    let mut all: Vec<(Frequency, usize)> = Vec::new();
     for take in takes {
-        if let Some(frequency) = Frequency::of(take) {
-            frames.entry(frequency.number).or_insert((frequency, 0)).1 += take.moments.len();
+        let frames = take.moments.len();
+        match Frequency::of(take)
+            .map(|frequency| (frequency, all.iter_mut().find(|(of, _)| *of == frequency)))
+        {
+            Some((_, Some((_, all)))) => *all += frames,
+            Some((frequency, None)) => all.push((frequency, frames)),
+            None => {}
         }
     }
-    frames.into_values().collect()
+    all.sort_by(|(a, _), (b, _)| a.hz.total_cmp(&b.hz));
+    all
 }
 
 /// That of most frames, of several.

@@ -33,12 +33,18 @@ const LIKELIER: f64 = 5.0;
 const BESIDES: f64 = 3.0;
 
 /// Whether most of the errors, of which `of` tells score and information of a frame, and which scatter by `sigma`, is one line in time with a phase of its own in each
-/// recording; or is one where those of a target that comes nearer are turned over: what shakes a carriage is a place, and no time.
+/// recording.
 pub fn is_line(jitters: &Jitters, of: Said, sigma: f64) -> bool {
-    let comes_nearer = |(frame, _): (&Frame, Sum)| frame.velocity_m_s < 0.0;
-    let as_it_is = is_line_where(jitters, of, |_| 1.0, sigma);
+    is_line_where(jitters, of, |_| 1.0, sigma)
+}
+
+/// Whether errors of times are such a line where those of a target that comes nearer are turned over, of one that goes either way: what shakes a carriage is a place, and
+/// no time.
+pub fn is_shaken(jitters: &Jitters, of: Said, sigma: f64) -> bool {
+    let comes_nearer = |frame: &Frame| frame.velocity_m_s < 0.0;
+    let nearer = heard(jitters, of).filter(|(frame, _)| comes_nearer(frame)).count();
     let turned = |frame: &Frame| if frame.velocity_m_s < 0.0 { -1.0 } else { 1.0 };
-    as_it_is || heard(jitters, of).any(comes_nearer) && is_line_where(jitters, of, turned, sigma)
+    (1..heard(jitters, of).count()).contains(&nearer) && is_line_where(jitters, of, turned, sigma)
 }
 
 /// The same of errors times what `sign` says of a frame.
@@ -187,9 +193,9 @@ mod tests {
     fn what_shakes_a_carriage_is_a_line() {
         let velocity_m_s =
             |time_s: f64| -> f64 { if (time_s / 1.3).floor() as i64 % 2 == 0 { 0.5 } else { -0.5 } };
-        let shaken = |seed: u64, turns: bool| {
+        let with_velocity = |errors: Jitters, turns: bool| {
             let mut jitters = Jitters::default();
-            for frame in phases(seed, |take, time_s, _| line(take, time_s)).frames() {
+            for frame in errors.frames() {
                 let velocity_m_s = velocity_m_s(frame.time_s - 0.02 * frame.number.0 as f64);
                 let sign = if turns { velocity_m_s.signum() } else { 1.0 };
                 let (score, information) = frame.phase;
@@ -197,9 +203,14 @@ mod tests {
             }
             jitters
         };
+        let shaken =
+            |seed: u64, turns: bool| with_velocity(phases(seed, |take, time_s, _| line(take, time_s)), turns);
         for seed in 0..20 {
-            assert!(is_line(&shaken(seed, true), of, SIGMA) && is_line(&shaken(seed, false), of, SIGMA));
-            assert!(!is_line_where(&shaken(seed, true), of, |_| 1.0, SIGMA), "{seed}");
+            let (place, time) = (shaken(seed, true), shaken(seed, false));
+            assert!(is_shaken(&place, of, SIGMA) && !is_line(&place, of, SIGMA), "{seed}");
+            assert!(is_line(&time, of, SIGMA) && !is_shaken(&time, of, SIGMA), "{seed}");
+            let jitter = with_velocity(phases(seed, |_, _, draw| SIGMA * draw), true);
+            assert!(!is_shaken(&jitter, of, SIGMA), "{seed}");
         }
     }
 

@@ -89,7 +89,7 @@ impl Frame {
             position_m,
             offset_rad,
         };
-        let tangents = frame.own[1].iter().zip(&frame.position);
+        let tangents = frame.phase().zip(&frame.position);
         for ((root, residual), (phase, position)) in roots.iter().zip(residuals).zip(tangents) {
             let (phase, time) = (root * phase, root * velocity_m_s * position);
             seen.phase.0 += phase * residual;

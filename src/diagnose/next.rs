@@ -8,6 +8,7 @@ use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::evidence::VISIBLE;
 use super::fit::Fit;
+use super::frequencies::Frequency;
 use super::gram::Gram;
 use super::judge::Judgement;
 use super::noise::Noise;
@@ -17,8 +18,10 @@ use super::projected::Projected;
 use super::proposals::{PROPOSALS, Proposal, thinned};
 use super::tolerated::tolerance;
 use super::vote::COLUMNS;
+use crate::physics::{AtFrequency, Pixels};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// A proposal, for an asserted effect and its rival.
 #[derive(Debug, Clone)]
@@ -121,6 +124,8 @@ fn best(mut proposals: Vec<Next>) -> Vec<Next> {
 struct Pair<'a> {
     data: Data,
     fit: &'a Fit,
+    /// The pixels; where the plan has a modulation frequency of its own, nobody knows where their phases begin there.
+    pixels: Arc<Pixels>,
     /// The recording's number in its campaign.
     take: usize,
 }
@@ -130,11 +135,16 @@ impl<'a> Pair<'a> {
     fn of(data: &Data, fit: &'a Fit, recorded: &Take, proposal: &Proposal, take: usize) -> Self {
         let planned = proposal.of(recorded);
         let frames = planned.moments.len();
-        let mut pair = Self { data: data.with_takes(vec![recorded.clone(), planned]), fit, take };
+        let mut pixels = Arc::clone(&fit.pixels);
+        if let Some(frequency_hz) = new_hz(&pixels, recorded, &planned) {
+            let at = AtFrequency { frequency_hz, times: 1.0, phase_rad: 0.0 };
+            Arc::make_mut(&mut pixels).at_frequencies.push(at);
+        }
+        let mut pair = Self { data: data.with_takes(vec![recorded.clone(), planned]), fit, pixels, take };
         let greatest_dn = f64::from(data.camera.full_scale()) - data.camera.pedestal_dn;
         let seen = |signal: &f64| if *signal < greatest_dn { 0.0 } else { f32::NAN };
         let pieces = pair.acting(&fit.pieces);
-        let (model, _) = Tangents::new(&pair.data, &fit.pixels, &pieces, &[]);
+        let (model, _) = Tangents::new(&pair.data, &pair.pixels, &pieces, &[]);
         let signals = (0..frames).map(|index| model.base(1, index));
         let signal_dn = signals.flat_map(|signal| signal.iter().map(seen).collect::<Vec<_>>()).collect();
         pair.data.takes[1].signal_dn = signal_dn;
@@ -157,7 +167,7 @@ impl<'a> Pair<'a> {
         if own.is_empty() || rival.is_empty() {
             return [0.0; 2];
         }
-        let (tangents, columns) = Tangents::new(&self.data, &self.fit.pixels, &own, &rival);
+        let (tangents, columns) = Tangents::new(&self.data, &self.pixels, &own, &rival);
         let gram = Gram::of(&self.data, &tangents, noise, &|_| true);
         let Projected { matrix, raw, .. } = gram.project(Some(self.fit.jitter_m2));
         if matrix.iter().any(|value| !value.is_finite()) {
@@ -189,6 +199,16 @@ impl<'a> Pair<'a> {
         let left_by = |others: &[usize]| left(&matrix, &of_own, others, &theta);
         [pairs.map(|pair| left_by(&pair)).fold(f64::INFINITY, f64::min), left_by(&[])]
     }
+}
+
+/// The modulation frequency of a plan, Hz, if the recording has another, and nothing is said of it.
+fn new_hz(pixels: &Pixels, recorded: &Take, planned: &Take) -> Option<f64> {
+    let [recorded, planned] = [recorded, planned].map(Frequency::of);
+    let is_new = |hz: &f64| pixels.at_frequency(*hz).is_none();
+    planned
+        .filter(|planned| recorded.is_some_and(|recorded| recorded != *planned))
+        .map(|planned| planned.hz)
+        .filter(is_new)
 }
 
 /// Less of a unit number is rounding.

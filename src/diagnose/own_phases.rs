@@ -3,6 +3,7 @@
 
 use super::data::{Data, Take};
 use super::frequencies::{Frequency, others, usual};
+use super::settle::median;
 use super::start::numbers;
 use crate::frames::Geometry;
 use crate::physics::AtFrequency;
@@ -21,14 +22,14 @@ pub struct OwnPhases {
     mean_rad: f64,
 }
 
-/// Fewer pixels of the target say nothing.
-const LEAST_PIXELS: usize = 8;
 /// A pixel that has less of the usual amplitude has no phase to speak of.
 const LEAST_SHARE: f64 = 0.1;
-/// What all pixels have at a frequency is there if it is so many times its standard deviation.
-const CLEAR: f64 = 3.0;
+/// Fewer pixels do not tell phases from delays.
+const LEAST_PIXELS: usize = 30;
 /// Own phases are delays where that is clear by so many nats.
 const DELAY_NATS: f64 = 10.0;
+/// Pixels that are so many times as far off as usual (median) do not see what others do.
+const FAR_OFF: f64 = 7.0;
 
 impl OwnPhases {
     /// What the sets of which `counts` is true say of them.
@@ -43,18 +44,19 @@ impl OwnPhases {
                 counts(set) && Frequency::of(&data.takes[sets[set].0]).is_some_and(|of| of == frequency)
             };
             let [amplitude, phase_rad, ..] = numbers(data, &is_of, &Self::default());
-            Phasors { amplitude, phase_rad }
+            // Light falls with the square of the distance, and what a phase is known to with light.
+            let lit = data.lit().filter(|moment| Frequency { hz: moment.frequency_hz } == frequency);
+            let information = lit.map(|moment| moment.commanded_m().powi(-4)).sum();
+            Phasors { amplitude, phase_rad, information }
         };
         let mut at_usual = seen(usual);
         let mean_rad = at_usual.unwrapped(&data.target);
         let at = |frequency: Frequency| {
-            let times = frequency.hz / usual.hz;
-            let at = at_usual.beside(&seen(frequency), data.geometry(), &data.target, times)?;
-            Some((frequency, AtFrequency { frequency_hz: frequency.hz, ..at }))
+            let delays = frequency.hz / usual.hz;
+            let (times, phase_rad) = at_usual.beside(&seen(frequency), data.geometry(), &data.target, delays);
+            (frequency, AtFrequency { frequency_hz: frequency.hz, times, phase_rad })
         };
-        let others: Vec<_> = others.into_iter().filter_map(at).collect();
-        let usual_rad = if others.is_empty() { Vec::new() } else { at_usual.phase_rad };
-        Self { others, usual_rad, mean_rad }
+        Self { others: others.into_iter().map(at).collect(), usual_rad: at_usual.phase_rad, mean_rad }
     }
 
     /// What there is to be said of pixels.
@@ -92,6 +94,8 @@ fn within(angle_rad: f64) -> f64 {
 struct Phasors {
     amplitude: Vec<f64>,
     phase_rad: Vec<f64>,
+    /// What phases are known to is the inverse root of this, in units that are the same at all frequencies.
+    information: f64,
 }
 
 impl Phasors {
@@ -107,44 +111,58 @@ impl Phasors {
         mean_rad
     }
 
-    /// What pixels of the `target` have at another frequency beside what they have here: these phases, if they are no delays, which would be so many `times` what
-    /// they are, and something besides; nothing where they are the same.
-    fn beside(&self, other: &Self, geometry: Geometry, target: &[bool], times: f64) -> Option<AtFrequency> {
-        let bright = |phasors: &Self, pixel: usize| {
-            let mut all: Vec<f64> =
-                phasors.amplitude.iter().zip(target).filter(|(_, is)| **is).map(|(a, _)| *a).collect();
-            all.sort_by(f64::total_cmp);
-            all.get(all.len() / 2).is_some_and(|usual| phasors.amplitude[pixel] > LEAST_SHARE * usual)
-        };
-        let seen: Vec<usize> =
-            (0..target.len()).filter(|&p| target[p] && bright(self, p) && bright(other, p)).collect();
-        if seen.len() < LEAST_PIXELS {
-            return None;
-        }
+    /// Which pixels of the `target` have the usual amplitude.
+    fn bright(&self, target: &[bool]) -> Vec<bool> {
+        let mut all: Vec<f64> =
+            self.amplitude.iter().zip(target).filter(|(_, is_target)| **is_target).map(|(a, _)| *a).collect();
+        let least = LEAST_SHARE * median(&mut all);
+        self.amplitude.iter().zip(target).map(|(amplitude, target)| *target && *amplitude > least).collect()
+    }
+
+    /// What pixels of the `target` have at another frequency beside what they have here: so many times these phases (once, or, where they are `delays`, as the frequencies
+    /// are), and something that all have besides, rad.
+    fn beside(&self, other: &Self, geometry: Geometry, target: &[bool], delays: f64) -> (f64, f64) {
+        let (here, there) = (self.bright(target), other.bright(target));
+        let mut seen: Vec<usize> = (0..target.len()).filter(|&pixel| here[pixel] && there[pixel]).collect();
         // The phase that all have besides own phases which count so many times, and what that leaves of each.
-        let left = |times: f64| {
+        let left = |seen: &[usize], times: f64| {
             let own =
                 |pixel: usize| Complex64::from_polar(self.amplitude[pixel], times * self.phase_rad[pixel]);
             let sum: Complex64 = seen.iter().map(|&pixel| other.phasor(pixel) * own(pixel).conj()).sum();
             let common_rad = sum.arg();
-            let left =
+            let of =
                 |pixel: &usize| within(other.phase_rad[*pixel] - times * self.phase_rad[*pixel] - common_rad);
-            (common_rad, DVector::from_iterator(seen.len(), seen.iter().map(left)))
+            (common_rad, DVector::from_iterator(seen.len(), seen.iter().map(of)))
         };
-        let square = |of: &DVector<f64>| without_trend(geometry, &seen, of).norm_squared();
-        let [(common_rad, same), (common_of_delays_rad, delays)] = [1.0, times].map(left);
-        let nats = 0.5 * seen.len() as f64 * (square(&same) / square(&delays)).ln();
-        if nats > DELAY_NATS {
-            return Some(AtFrequency { frequency_hz: 0.0, times, phase_rad: common_of_delays_rad });
+        let untrended = |seen: &[usize], times: f64| without_trend(geometry, seen, &left(seen, times).1);
+        if seen.len() >= LEAST_PIXELS {
+            let far = [1.0, delays].map(|times| {
+                let left = untrended(&seen, times).abs();
+                let usual = median(&mut left.as_slice().to_vec());
+                left.iter().map(|left| *left > FAR_OFF * usual).collect::<Vec<_>>()
+            });
+            let stays = |place: usize| far.iter().all(|far| !far[place]);
+            seen =
+                seen.iter().enumerate().filter(|(place, _)| stays(*place)).map(|(_, pixel)| *pixel).collect();
         }
-        let sigma_rad = same.norm() / seen.len() as f64;
-        (common_rad.abs() > CLEAR * sigma_rad).then_some(AtFrequency {
-            frequency_hz: 0.0,
-            times: 1.0,
-            phase_rad: common_rad,
-        })
+        let mut times = 1.0;
+        if seen.len() >= LEAST_PIXELS {
+            // Over what noise would leave.
+            let square = |times: f64| {
+                let noise = times * times / self.information + 1.0 / other.information;
+                untrended(&seen, times).norm_squared() / noise
+            };
+            let nats = 0.5 * (seen.len() - TREND) as f64 * (square(1.0) / square(delays)).ln();
+            if nats > DELAY_NATS {
+                times = delays;
+            }
+        }
+        (times, left(&seen, times).0)
     }
 }
+
+/// Numbers of a trend over the image.
+const TREND: usize = 6;
 
 /// Values of the pixels `seen` without what goes with row and column, or their squares: a delay along these has a name of its own.
 fn without_trend(geometry: Geometry, seen: &[usize], values: &DVector<f64>) -> DVector<f64> {
@@ -154,36 +172,44 @@ fn without_trend(geometry: Geometry, seen: &[usize], values: &DVector<f64>) -> D
         [1.0, x, y, x * x, x * y, y * y]
     };
     let rows: Vec<f64> = seen.iter().flat_map(of).collect();
-    let trend = DMatrix::from_row_slice(seen.len(), 6, &rows).qr().q();
+    let trend = DMatrix::from_row_slice(seen.len(), TREND, &rows).qr().q();
     values - &trend * trend.tr_mul(values)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::Draws;
+    use crate::bench::{Plan, Simulation, chain, injection, number_of, practice_camera, recorded, sensor};
+    use crate::diagnose::diagnose;
+    use crate::physics::{Draws, Stage};
+    use std::path::Path;
+    use std::sync::Arc;
 
     const GEOMETRY: Geometry = Geometry { width: 16, height: 12 };
-    /// The other frequency over the usual one; what all pixels have there besides, rad; their noise, rad.
-    const TIMES: f64 = 4.0 / 3.0;
+    /// The other frequency over the usual one.
+    const RATIOS: [f64; 3] = [4.0 / 3.0, 0.75, 0.5];
+    /// What all pixels have there besides, rad, and the noise of each, rad.
     const ALL_RAD: f64 = 2.5;
     const NOISE_RAD: f64 = 0.003;
 
-    /// What is said of pixels whose own phases are `own`, rad, and at another frequency so many times that and `all_rad`.
-    fn said(own: impl Fn(usize) -> f64, times: f64, all_rad: f64) -> Option<AtFrequency> {
+    /// What is said of pixels whose own phases are `own`, rad, and at another frequency, which is so many times the usual one, so many times that and `ALL_RAD`; three pixels see something else.
+    fn said(own: impl Fn(usize) -> f64, ratio: f64, times: f64) -> (f64, f64) {
         let count = GEOMETRY.pixels();
         let mut target = vec![true; count];
         target[..20].fill(false);
         let of = |seed: u64, times: f64, all_rad: f64| {
             let noise = Draws::of(seed, 1).normal(count);
-            let phase = |pixel: usize| 3.0 + times * (own(pixel) - 3.0) + all_rad + NOISE_RAD * noise[pixel];
+            let far = |pixel: usize| if pixel % 50 == 40 { 2.0 * seed as f64 } else { 0.0 };
+            let phase = |pixel: usize| {
+                3.0 + times * (own(pixel) - 3.0) + all_rad + NOISE_RAD * noise[pixel] + far(pixel)
+            };
             // The background is anywhere.
             let phase_rad = (0..count).map(|p| within(if target[p] { phase(p) } else { p as f64 }));
-            Phasors { amplitude: vec![100.0; count], phase_rad: phase_rad.collect() }
+            Phasors { amplitude: vec![100.0; count], phase_rad: phase_rad.collect(), information: 7.0 }
         };
         let mut usual = of(1, 1.0, 0.0);
         usual.unwrapped(&target);
-        usual.beside(&of(2, times, all_rad), GEOMETRY, &target, TIMES)
+        usual.beside(&of(2, times, ALL_RAD), GEOMETRY, &target, ratio)
     }
 
     #[test]
@@ -191,28 +217,90 @@ mod tests {
         let draws = Draws::of(3, 1).normal(GEOMETRY.pixels());
         // The pattern goes over the end of the turn.
         let pattern = |pixel: usize| 3.0 + 0.1 * draws[pixel];
-        let same = said(pattern, 1.0, ALL_RAD).unwrap();
-        assert!(same.times == 1.0 && (within(same.phase_rad - ALL_RAD)).abs() < 0.001, "{same:?}");
-        let delays = said(pattern, TIMES, ALL_RAD).unwrap();
-        let all_rad = ALL_RAD + 3.0 * (1.0 - TIMES);
-        assert!(delays.times == TIMES && within(delays.phase_rad - all_rad).abs() < 0.001, "{delays:?}");
-        // What is the same at both needs no words.
-        assert_eq!(said(pattern, 1.0, 0.0), None);
-        assert!(said(pattern, TIMES, 0.0).is_some());
+        for ratio in RATIOS {
+            let same = said(pattern, ratio, 1.0);
+            assert!(same.0 == 1.0 && within(same.1 - ALL_RAD).abs() < 0.002, "{same:?}");
+            let delays = said(pattern, ratio, ratio);
+            let all_rad = ALL_RAD + 3.0 * (1.0 - ratio);
+            assert!(delays.0 == ratio && within(delays.1 - all_rad).abs() < 0.002, "{delays:?}");
+        }
     }
 
-    /// A delay along the columns has a name: it is not taken for what pixels have.
+    /// A delay along the columns has a name: it is not taken for what pixels have; and without any pattern noise decides nothing.
     #[test]
     fn a_skew_is_left_to_be_found() {
-        let skew = |pixel: usize| 3.0 + 0.05 * (pixel % GEOMETRY.width) as f64;
-        let said = said(skew, TIMES, ALL_RAD).unwrap();
-        assert_eq!(said.times, 1.0);
+        for ratio in RATIOS {
+            let skew = |pixel: usize| 3.0 + 0.02 * (pixel % GEOMETRY.width) as f64;
+            assert_eq!((said(skew, ratio, ratio).0, said(skew, ratio, 1.0).0), (1.0, 1.0));
+            assert_eq!(said(|_| 3.0, ratio, 1.0).0, 1.0);
+        }
     }
 
     #[test]
-    fn a_few_pixels_say_nothing() {
+    fn a_few_pixels_tell_where_phases_begin() {
         let geometry = Geometry { width: 3, height: 2 };
-        let of = |phase_rad: f64| Phasors { amplitude: vec![1.0; 6], phase_rad: vec![phase_rad; 6] };
-        assert_eq!(of(0.0).beside(&of(1.0), geometry, &[true; 6], TIMES), None);
+        let of = |phase_rad: f64| Phasors {
+            amplitude: vec![1.0; 6],
+            phase_rad: vec![phase_rad; 6],
+            information: 1.0,
+        };
+        let (times, all_rad) = of(0.0).beside(&of(1.0), geometry, &[true; 6], 0.5);
+        assert!(times == 1.0 && (all_rad - 1.0).abs() < 1e-12);
+        assert_eq!(of(0.0).beside(&of(1.0), geometry, &[false; 6], 0.5), (1.0, 0.0));
+    }
+
+    /// A rail at 30 MHz, and motion at 40 MHz, where own phases are delays and begin elsewhere: clean; and what there is beside it is found as strong as it is, whether the frequency
+    /// itself is off, or frames have phases at random.
+    #[test]
+    fn what_pixels_have_at_two_frequencies_is_fitted() {
+        const OTHER_HZ: f64 = 40e6;
+        const TIMES: f64 = 4.0 / 3.0;
+        let (camera, seed) = (practice_camera(GEOMETRY), 5);
+        let sensor = sensor(&camera);
+        let of = |effects: &[&str]| {
+            let effects: Vec<_> = effects.iter().map(|effect| injection(effect).unwrap()).collect();
+            let mut pixels = Stage::bench().pixels(&sensor, seed);
+            pixels.at_frequencies =
+                vec![AtFrequency { frequency_hz: OTHER_HZ, times: TIMES, phase_rad: 2.0 }];
+            let chain = chain(&camera, Arc::new(pixels), effects);
+            let take = |(name, frequency_hz): (&str, f64)| {
+                let mut plan = Plan::usual(seed);
+                plan.frequency_hz = frequency_hz;
+                let simulation = Simulation {
+                    chain: &chain,
+                    sensor: &sensor,
+                    noise: true,
+                    seed,
+                    recording: number_of(name),
+                };
+                let course = plan.course(name).unwrap();
+                recorded(Path::new("simulated"), name, &plan, &course, &camera, &simulation, &|| ()).unwrap()
+            };
+            let recordings = [("four-rail", 30e6), ("four-sweep", 30e6), ("four-motion", OTHER_HZ)].map(take);
+            diagnose(&Data::of(&recordings, Vec::new()).unwrap())
+        };
+        let clean = of(&[]);
+        assert!(
+            clean.answer.effects.is_empty() && clean.answer.located.is_empty(),
+            "{:?}",
+            clean.answer.located
+        );
+        let [at] = clean.judgement.fit.pixels.at_frequencies[..] else { panic!() };
+        // The usual one is that of motion.
+        assert_eq!((at.frequency_hz, at.times), (30e6, 0.75));
+        for (effect, value) in
+            [("modulation_frequency_error:relative=0.003", 0.003), ("clock_jitter:sigma_rad=0.01", 0.01)]
+        {
+            let found = of(&[effect]).answer.effects;
+            assert_eq!(
+                found.iter().map(|row| row.name).collect::<Vec<_>>(),
+                [effect.split(':').next().unwrap()]
+            );
+            let strength = &found[0].parameters[0];
+            assert!(
+                (strength.value - value).abs() < 4.0 * strength.sigma && strength.sigma < 0.2 * value,
+                "{strength:?}"
+            );
+        }
     }
 }

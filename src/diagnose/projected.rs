@@ -71,7 +71,7 @@ pub struct Common {
 }
 
 /// Of a phase, all but this of its square may be other columns': the rest is rounding (of sums in single precision).
-const LEAST: f64 = 1e-7;
+const LEAST: f64 = 1e-6;
 
 impl Common {
     /// Takes so many phases, which stand before the last one of the columns, out of the `full` products of these and their `solved` steps of the pixels' own

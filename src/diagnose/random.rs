@@ -3,7 +3,7 @@
 use super::again::{self, Said};
 use super::clusters::{Cluster, Level, MODES};
 use super::data::Data;
-use super::in_time::{is_line, is_of_few};
+use super::in_time::{is_line, is_of_few, is_shaken};
 use super::jitters::Frame;
 use super::location::{Located, Location};
 use super::set_errors::Jitter;
@@ -164,13 +164,16 @@ fn is_most(columns: f64, numbers: usize, ln_bayes: f64, frames: f64) -> bool {
     columns > (ORDERED_MOST + (1.0 - ORDERED_MOST) * by_chance) * ln_bayes
 }
 
+/// Of [`JITTERS`], that of the time.
+const TIME: usize = 1;
 /// Score and information of a frame, of each of [`JITTERS`].
 const SAID: [Said; 2] = [|frame| frame.phase, |frame| frame.time];
 
 /// Whether errors of a `kind` of [`JITTERS`], which scatter by `sigma`, are new in each frame: neither steady, nor a line in time, nor those of a few frames.
 fn is_new_in_each(location: &Location, kind: usize, sigma: f64) -> bool {
     let (jitters, of) = (&location.jitters, SAID[kind]);
-    !is_steady(jitters, kind, sigma) && !is_line(jitters, of, sigma) && !is_of_few(jitters, of, sigma)
+    let is_in_time = is_line(jitters, of, sigma) || kind == TIME && is_shaken(jitters, of, sigma);
+    !is_steady(jitters, kind, sigma) && !is_in_time && !is_of_few(jitters, of, sigma)
 }
 
 /// Both jitters, where frames show the other one, too, beside the `first`: more clearly than anything orders them.

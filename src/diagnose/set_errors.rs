@@ -20,7 +20,7 @@ pub fn tangents(
 ) -> Vec<Vec<f64>> {
     let mut errors = vec![position];
     if jitter[0] > 0.0 {
-        errors.push(own[1].clone());
+        errors.push(own[1].iter().map(|own| own / whitened.frame.times).collect());
     }
     if jitter[1] > 0.0 {
         errors.push(errors[0].iter().map(|by_m| whitened.velocity_m_s * by_m).collect());

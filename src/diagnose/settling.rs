@@ -66,15 +66,23 @@ impl Judges<'_> {
         if better.is_empty() {
             return false;
         }
-        let mut mixed = Arc::clone(pixels);
-        let mut own = own_values_mut(Arc::make_mut(&mut mixed));
+        let mut mixed = Pixels::clone(pixels);
+        let mut own = own_values_mut(&mut mixed);
         for pixel in better {
             own.iter_mut().zip(own_values(there)).for_each(|(own, there)| own[pixel] = there[pixel]);
         }
-        let of_mixed = self.losses(&mixed);
-        if total(&of_mixed) <= total(losses) {
-            *pixels = mixed;
-            *losses = of_mixed;
+        // A phase that all have in common goes with most of them, or stays where it is.
+        let mut common = vec![there.at_frequencies.clone()];
+        if there.at_frequencies != pixels.at_frequencies {
+            common.push(pixels.at_frequencies.clone());
+        }
+        for at_frequencies in common {
+            let mixed = Arc::new(Pixels { at_frequencies, ..mixed.clone() });
+            let of_mixed = self.losses(&mixed);
+            if total(&of_mixed) <= total(losses) {
+                (*pixels, *losses) = (mixed, of_mixed);
+                break;
+            }
         }
         false
     }

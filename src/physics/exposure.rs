@@ -265,7 +265,8 @@ impl Exposure {
         let over_rows_m = self.motion_share * self.way_over_rows_m();
         let (pixels, frequency_hz) = (&*self.pixels, self.frequency_hz);
         let (mut ranges, mut phases) = (vec![0.0; pixels.count()], vec![0.0; pixels.count()]);
-        let (times, all_rad) = pixels.own_phase_at(frequency_hz);
+        // What was commanded says which frequency it is, however far that is off.
+        let (times, all_rad) = pixels.own_phase_at(self.moment.frequency_hz);
         let (ranges_m, phases_rad) = (&mut ranges[..], &mut phases[..]);
         widest!((pixels: &'a Pixels, position_m: f64, over_rows_m: f64, frequency_hz: f64,
                  times: f64, all_rad: f64, ranges_m: &'a mut [f64], phases_rad: &'a mut [f64]) {

@@ -35,7 +35,7 @@ pub use effects::EFFECTS;
 pub use exposure::{Before, Exposure, Included, Moment};
 pub use formula::{COORDINATES, Formula, Target};
 pub use per_pixel::PerPixel;
-pub use pixels::{AtFrequency, Pixels};
+pub use pixels::{AtFrequency, Pixels, is_same_frequency};
 pub use powers::ln;
 pub use pulse::Pulse;
 pub use scene::{Object, Scene, Surface};

@@ -20,6 +20,11 @@ pub struct AtFrequency {
 /// Modulation frequencies that differ by less of themselves are one.
 const SAME_FREQUENCY: f64 = 1e-6;
 
+/// Whether two modulation frequencies, Hz, are one, written with other digits.
+pub fn is_same_frequency(a_hz: f64, b_hz: f64) -> bool {
+    (a_hz / b_hz - 1.0).abs() < SAME_FREQUENCY
+}
+
 /// The pixels of a camera before a scene. Arrays have one entry a pixel, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pixels {
@@ -59,8 +64,7 @@ impl Pixels {
 
     /// What is said of the pixels' own phases at a modulation frequency, by its number.
     pub fn at_frequency(&self, frequency_hz: f64) -> Option<usize> {
-        let is_it = |at: &AtFrequency| (at.frequency_hz / frequency_hz - 1.0).abs() < SAME_FREQUENCY;
-        self.at_frequencies.iter().position(is_it)
+        self.at_frequencies.iter().position(|at| is_same_frequency(at.frequency_hz, frequency_hz))
     }
 
     /// How many times the pixels' own phases count at a modulation frequency, and what all pixels have besides, rad.

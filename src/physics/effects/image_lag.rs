@@ -34,13 +34,15 @@ const PAUSE: f64 = 0.5;
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let which = values[1];
-    let Moment { frame, frame_period_s, .. } = exposure.moment;
+    let Moment { frame, frame_period_s, time_s, .. } = exposure.moment;
     let is_first = frame == 0;
     if which == WAITED && is_first {
         return;
     }
     let before = exposure.before.clone();
-    let has_paused = before.as_ref().is_none_or(|before| before.rested_s > PAUSE * frame_period_s);
+    // Before a recording there was a pause, too.
+    let pause_s = PAUSE * frame_period_s;
+    let has_paused = time_s < pause_s || before.as_ref().is_none_or(|before| before.rested_s > pause_s);
     if is_first && (which == EMPTIED || which == EMPTIED_IN_PAUSES && has_paused) {
         exposure.signal_dn.iter_mut().for_each(|signal| *signal *= 1.0 - values[0]);
     } else if let Some(Before { evenly_dn, again_dn, kept_dn, .. }) = before.as_deref() {
