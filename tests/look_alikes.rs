@@ -223,6 +223,32 @@ bounds = [0, 1]
 typical = 0.05
 "#;
 
+/// The source's power is another in each frame, and much of the light is not its own: no gain of all light, and no jitter of the phase.
+#[test]
+fn a_source_of_another_power_in_each_frame_is_no_jitter() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = folder.path().join("library.toml");
+    std::fs::write(&library, POWER).unwrap();
+    let options = ["--library", library.to_str().unwrap(), "--effect", "source_power_noise"];
+    let verdict = verdict(&campaign_of(folder.path(), SIZE, "four-sweep,four-motion", &options));
+    is_unexplained(&verdict, "frame");
+    let shape = verdict["located"][0]["shape"].as_str().unwrap();
+    assert!(shape.starts_with("random light of ") && shape.ends_with(", common to a frame"), "{shape}");
+}
+
+const POWER: &str = r#"
+[[effect]]
+name = "source_power_noise"
+sentence = "The power of the camera's own light is another in each frame."
+acts_on = "amplitude"
+formula = "share * (sin(12.9898 * set + 78.233 * frame + 4.581) * 43758.5453 - floor(sin(12.9898 * set + 78.233 * frame + 4.581) * 43758.5453) - 0.5)"
+[[effect.parameter]]
+name = "share"
+unit = "1"
+bounds = [0, 1]
+typical = 0.01
+"#;
+
 /// An offset of one frame of each set, which other gains of the frames would nearly make.
 #[test]
 fn a_weak_pulse_in_one_frame_is_no_other_gain() {
