@@ -318,6 +318,7 @@ mod tests {
     use crate::bench::taken;
     use crate::diagnose::finished::unfitted;
     use crate::diagnose::stated_noise;
+    use crate::physics::AtFrequency;
 
     /// What a pixel's own numbers change is what changes there when they alone do, however much of what it sees is its neighbour's.
     #[test]
@@ -346,5 +347,29 @@ mod tests {
             }
         }
         assert!(looked_at.into_iter().all(|edges| edges > 4), "{looked_at:?}");
+    }
+
+    /// A phase that all pixels have at a frequency moves frames by that much, also where their own phases count more than once there.
+    #[test]
+    fn a_common_phase_is_one_of_the_light() {
+        const STEP_RAD: f64 = 1e-4;
+        let size = Geometry { width: 8, height: 6 };
+        let recordings = taken(size, 2, &[], &["four-rail"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let pixels = unfitted(&data, stated_noise(&data)).pixels;
+        let of = |phase_rad: f64| {
+            let at = AtFrequency { frequency_hz: recordings[0].frequency_hz, times: 1.5, phase_rad };
+            let pixels = Pixels { at_frequencies: vec![at], ..Pixels::clone(&pixels) };
+            Tangents::new(&data, &Arc::new(pixels), &[], &[]).0
+        };
+        let (tangents, index) = (of(0.3), 2);
+        let frame = tangents.frame(0, index);
+        let (number, common) = tangents.of_common(0, index, &frame).unwrap();
+        assert_eq!((number, tangents.common()), (0, 1));
+        let moved = difference(&of(0.3 + STEP_RAD).base(0, index), &frame.base, STEP_RAD);
+        let largest = moved.iter().fold(0.0_f64, |largest, moved| largest.max(moved.abs()));
+        let is_near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-3 * largest;
+        assert!(largest > 10.0 && common.iter().zip(&moved).all(is_near), "{common:?} {moved:?}");
+        assert!(frame.own[1].iter().zip(&moved).any(|(own, moved)| (own - moved).abs() > 0.1 * largest));
     }
 }
