@@ -38,6 +38,15 @@ fn verdict_of(recordings: &str, change: impl Fn(Sample) -> f64) -> Value {
     verdict(&campaign)
 }
 
+/// The same where an effect that nobody is told of, by the formula of a `library`, is concealed.
+fn verdict_of_formula(recordings: &str, library: &str, effect: &str) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("library.toml");
+    std::fs::write(&file, library).unwrap();
+    let options = ["--library", file.to_str().unwrap(), "--effect", effect];
+    verdict(&campaign_of(folder.path(), SIZE, recordings, &options))
+}
+
 /// Sets begin eleven frames apart.
 fn time_s(sample: Sample) -> f64 {
     0.025 * (11 * sample.set + sample.frame) as f64
@@ -200,11 +209,7 @@ fn a_swing_is_a_mismatch_in_time() {
 /// The modulated part alone is less for some seconds: no gain, and no function of the phase.
 #[test]
 fn a_loss_of_contrast_is_a_mismatch_in_time() {
-    let folder = tempfile::tempdir().unwrap();
-    let library = folder.path().join("library.toml");
-    std::fs::write(&library, CONTRAST).unwrap();
-    let options = ["--library", library.to_str().unwrap(), "--effect", "contrast_loss"];
-    let verdict = verdict(&campaign_of(folder.path(), SIZE, "four-sweep,four-rail", &options));
+    let verdict = verdict_of_formula("four-sweep,four-rail", CONTRAST, "contrast_loss");
     is_unexplained(&verdict, "time_s");
     let shape = verdict["located"][0]["shape"].as_str().unwrap();
     assert!(shape.starts_with("contrast, at "), "{shape}");
@@ -226,11 +231,7 @@ typical = 0.05
 /// The source's power is another in each frame, and much of the light is not its own: no gain of all light, and no jitter of the phase.
 #[test]
 fn a_source_of_another_power_in_each_frame_is_no_jitter() {
-    let folder = tempfile::tempdir().unwrap();
-    let library = folder.path().join("library.toml");
-    std::fs::write(&library, POWER).unwrap();
-    let options = ["--library", library.to_str().unwrap(), "--effect", "source_power_noise"];
-    let verdict = verdict(&campaign_of(folder.path(), SIZE, "four-sweep,four-motion", &options));
+    let verdict = verdict_of_formula("four-sweep,four-motion", POWER, "source_power_noise");
     is_unexplained(&verdict, "frame");
     let shape = verdict["located"][0]["shape"].as_str().unwrap();
     assert!(shape.starts_with("random light of ") && shape.ends_with(", common to a frame"), "{shape}");

@@ -289,11 +289,10 @@ fn phase(view: &View) -> Acting {
     let position_m = moment.commanded_m();
     let count = view.frame.base.len();
     let amplitude = amplitude_dn(view);
-    let (times, all_rad) = view.pixels.own_phase_at(moment.frequency_hz);
     let mut columns: Vec<Vec<f64>> = vec![vec![0.0; count]; OF_RANGE];
     for pixel in (0..count).filter(|&pixel| view.tells(pixel)) {
         let range_m = position_m * view.pixels.obliquity[pixel];
-        let own_rad = times * view.pixels.phase_rad[pixel] + all_rad;
+        let own_rad = view.pixels.own_phase_rad(pixel, moment.frequency_hz);
         let phase = phase_rad(range_m, moment.frequency_hz) + own_rad - moment.offset_rad;
         let angle = moment.step_rad - phase;
         let (once, wave_once) = (cos_sin(phase), cos_sin(angle));
@@ -303,8 +302,8 @@ fn phase(view: &View) -> Acting {
             (turned, wave) = (further(turned, once), further(wave, wave_once));
             let ((cosine, sine), (wave_cosine, wave_sine)) = (turned, wave);
             let at = 6 * (cycles - 1);
-            columns[at][pixel] = cosine * view.frame.own[1][pixel] / times;
-            columns[at + 1][pixel] = sine * view.frame.own[1][pixel] / times;
+            columns[at][pixel] = cosine * view.frame.own[1][pixel] / view.frame.times;
+            columns[at + 1][pixel] = sine * view.frame.own[1][pixel] / view.frame.times;
             columns[at + 2][pixel] = cosine * amplitude[pixel];
             columns[at + 3][pixel] = sine * amplitude[pixel];
             columns[at + 4][pixel] = wave_cosine * amplitude[pixel];

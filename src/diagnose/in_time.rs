@@ -41,9 +41,8 @@ pub fn is_line(jitters: &Jitters, of: Said, sigma: f64) -> bool {
 /// Whether errors of times are such a line where those of a target that comes nearer are turned over, of one that goes either way: what shakes a carriage is a place, and
 /// no time.
 pub fn is_shaken(jitters: &Jitters, of: Said, sigma: f64) -> bool {
-    let comes_nearer = |frame: &Frame| frame.velocity_m_s < 0.0;
-    let nearer = heard(jitters, of).filter(|(frame, _)| comes_nearer(frame)).count();
     let turned = |frame: &Frame| if frame.velocity_m_s < 0.0 { -1.0 } else { 1.0 };
+    let nearer = heard(jitters, of).filter(|(frame, _)| turned(frame) < 0.0).count();
     (1..heard(jitters, of).count()).contains(&nearer) && is_line_where(jitters, of, turned, sigma)
 }
 

@@ -203,12 +203,8 @@ impl<'a> Pair<'a> {
 
 /// The modulation frequency of a plan, Hz, if the recording has another, and nothing is said of it.
 fn new_hz(pixels: &Pixels, recorded: &Take, planned: &Take) -> Option<f64> {
-    let [recorded, planned] = [recorded, planned].map(Frequency::of);
-    let is_new = |hz: &f64| pixels.at_frequency(*hz).is_none();
-    planned
-        .filter(|planned| recorded.is_some_and(|recorded| recorded != *planned))
-        .map(|planned| planned.hz)
-        .filter(is_new)
+    let (recorded, planned) = (Frequency::of(recorded)?, Frequency::of(planned)?);
+    (recorded != planned && pixels.at_frequency(planned.hz).is_none()).then_some(planned.hz)
 }
 
 /// Less of a unit number is rounding.

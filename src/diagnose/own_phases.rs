@@ -7,16 +7,16 @@ use super::settle::median;
 use super::start::numbers;
 use crate::frames::Geometry;
 use crate::physics::AtFrequency;
+use crate::units::wrap_rad;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
-use std::f64::consts::PI;
 
 /// Own phases at frequencies other than the usual one, which is that of most frames.
 #[derive(Debug, Clone, Default)]
 pub struct OwnPhases {
     /// At each.
     others: Vec<(Frequency, AtFrequency)>,
-    /// Those at the usual one, rad: a value a pixel; empty where they are the same at all.
+    /// Those at the usual one, rad: a value a pixel; empty where there is no other.
     usual_rad: Vec<f64>,
     /// Their mean, rad.
     mean_rad: f64,
@@ -81,13 +81,8 @@ impl OwnPhases {
 
     /// A pixel's own phase at the usual frequency, but for turns, where it is counted together with those of the others.
     pub fn beside_others(&self, phase_rad: f64) -> f64 {
-        if self.others.is_empty() { phase_rad } else { self.mean_rad + within(phase_rad - self.mean_rad) }
+        if self.others.is_empty() { phase_rad } else { self.mean_rad + wrap_rad(phase_rad - self.mean_rad) }
     }
-}
-
-/// An angle from −π to π, rad.
-fn within(angle_rad: f64) -> f64 {
-    angle_rad - 2.0 * PI * (angle_rad / (2.0 * PI)).round()
 }
 
 /// Amplitudes and phases, a value a pixel.
@@ -107,7 +102,7 @@ impl Phasors {
     fn unwrapped(&mut self, target: &[bool]) -> f64 {
         let of_target = (0..target.len()).filter(|&pixel| target[pixel]);
         let mean_rad = of_target.map(|pixel| self.phasor(pixel)).sum::<Complex64>().arg();
-        self.phase_rad.iter_mut().for_each(|phase| *phase = mean_rad + within(*phase - mean_rad));
+        self.phase_rad.iter_mut().for_each(|phase| *phase = mean_rad + wrap_rad(*phase - mean_rad));
         mean_rad
     }
 
@@ -130,8 +125,9 @@ impl Phasors {
                 |pixel: usize| Complex64::from_polar(self.amplitude[pixel], times * self.phase_rad[pixel]);
             let sum: Complex64 = seen.iter().map(|&pixel| other.phasor(pixel) * own(pixel).conj()).sum();
             let common_rad = sum.arg();
-            let of =
-                |pixel: &usize| within(other.phase_rad[*pixel] - times * self.phase_rad[*pixel] - common_rad);
+            let of = |pixel: &usize| {
+                wrap_rad(other.phase_rad[*pixel] - times * self.phase_rad[*pixel] - common_rad)
+            };
             (common_rad, DVector::from_iterator(seen.len(), seen.iter().map(of)))
         };
         let untrended = |seen: &[usize], times: f64| without_trend(geometry, seen, &left(seen, times).1);
@@ -192,7 +188,7 @@ mod tests {
     const ALL_RAD: f64 = 2.5;
     const NOISE_RAD: f64 = 0.003;
 
-    /// What is said of pixels whose own phases are `own`, rad, and at another frequency, which is so many times the usual one, so many times that and `ALL_RAD`; three pixels see something else.
+    /// What is said of pixels whose own phases are `own`, rad, and at another frequency, which is so many times the usual one, so many times that and `ALL_RAD`; four pixels see something else.
     fn said(own: impl Fn(usize) -> f64, ratio: f64, times: f64) -> (f64, f64) {
         let count = GEOMETRY.pixels();
         let mut target = vec![true; count];
@@ -204,7 +200,7 @@ mod tests {
                 3.0 + times * (own(pixel) - 3.0) + all_rad + NOISE_RAD * noise[pixel] + far(pixel)
             };
             // The background is anywhere.
-            let phase_rad = (0..count).map(|p| within(if target[p] { phase(p) } else { p as f64 }));
+            let phase_rad = (0..count).map(|p| wrap_rad(if target[p] { phase(p) } else { p as f64 }));
             Phasors { amplitude: vec![100.0; count], phase_rad: phase_rad.collect(), information: 7.0 }
         };
         let mut usual = of(1, 1.0, 0.0);
@@ -219,10 +215,10 @@ mod tests {
         let pattern = |pixel: usize| 3.0 + 0.1 * draws[pixel];
         for ratio in RATIOS {
             let same = said(pattern, ratio, 1.0);
-            assert!(same.0 == 1.0 && within(same.1 - ALL_RAD).abs() < 0.002, "{same:?}");
+            assert!(same.0 == 1.0 && wrap_rad(same.1 - ALL_RAD).abs() < 0.002, "{same:?}");
             let delays = said(pattern, ratio, ratio);
             let all_rad = ALL_RAD + 3.0 * (1.0 - ratio);
-            assert!(delays.0 == ratio && within(delays.1 - all_rad).abs() < 0.002, "{delays:?}");
+            assert!(delays.0 == ratio && wrap_rad(delays.1 - all_rad).abs() < 0.002, "{delays:?}");
         }
     }
 

@@ -56,9 +56,8 @@ const AXES: [Axis; 8] = [
         bins: BINS,
         place: Over::Sample(|s| {
             let range_m = s.moment.commanded_m() * s.fit.pixels.obliquity[s.pixel];
-            let (times, all_rad) = s.fit.pixels.own_phase_at(s.moment.frequency_hz);
-            let own_rad = times * s.fit.pixels.phase_rad[s.pixel] + all_rad;
-            let phase = phase_rad(range_m, s.moment.frequency_hz) + own_rad;
+            let frequency_hz = s.moment.frequency_hz;
+            let phase = phase_rad(range_m, frequency_hz) + s.fit.pixels.own_phase_rad(s.pixel, frequency_hz);
             ((s.moment.step_rad + s.moment.offset_rad - phase) / TAU).rem_euclid(1.0)
         }),
         at: |_, place| place,

@@ -73,6 +73,12 @@ impl Pixels {
         at.map_or((1.0, 0.0), |at| (at.times, at.phase_rad))
     }
 
+    /// The own phase of a `pixel` at a modulation frequency, rad.
+    pub fn own_phase_rad(&self, pixel: usize, frequency_hz: f64) -> f64 {
+        let (times, all_rad) = self.own_phase_at(frequency_hz);
+        times * self.phase_rad[pixel] + all_rad
+    }
+
     /// Column and row from the centre, as a share of the sensor's width and height: −0.5 to 0.5.
     pub fn place(&self, pixel: usize) -> (f64, f64) {
         let Geometry { width, height } = self.geometry;

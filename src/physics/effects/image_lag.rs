@@ -39,13 +39,13 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     if which == WAITED && is_first {
         return;
     }
-    let before = exposure.before.clone();
     // Before a recording there was a pause, too.
     let pause_s = PAUSE * frame_period_s;
-    let has_paused = time_s < pause_s || before.as_ref().is_none_or(|before| before.rested_s > pause_s);
+    let has_paused =
+        time_s < pause_s || exposure.before.as_ref().is_none_or(|before| before.rested_s > pause_s);
     if is_first && (which == EMPTIED || which == EMPTIED_IN_PAUSES && has_paused) {
         exposure.signal_dn.iter_mut().for_each(|signal| *signal *= 1.0 - values[0]);
-    } else if let Some(Before { evenly_dn, again_dn, kept_dn, .. }) = before.as_deref() {
+    } else if let Some(Before { evenly_dn, again_dn, kept_dn, .. }) = exposure.before.as_deref() {
         let before_dn = if which == RESTED || which == EMPTIED_IN_PAUSES {
             kept_dn
         } else if which > 0.5 {
