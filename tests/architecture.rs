@@ -19,7 +19,7 @@ const EDGES: &Edges = &[
     ),
     ("challenge", "frames problem recording study time_domain"),
     ("time_domain", "frames recording units"),
-    ("study", "bench diagnose frames physics problem"),
+    ("study", "bench diagnose frames physics problem recording"),
     ("package", "artifact hdl report spec units"),
     ("report", "algorithms bench diagnose frames hdl paper physics problem spec sweep synthesis units"),
     ("algorithms", "problem spec units"),

@@ -21,6 +21,6 @@ pub use course::{Course, moments};
 pub use injection::{camera_effects, included_without, injection, injection_among};
 pub use library::library;
 pub use plan::Plan;
-pub use recorded::{number_of, recorded, taken};
+pub use recorded::{number_of, recorded, taken, taken_by};
 pub use simulation::{Simulation, simulate};
 pub use word_length::{injection_for, specification_of};

@@ -47,16 +47,34 @@ pub fn recorded(
 /// # Errors
 /// As [`Plan::course`] and [`simulate`].
 pub fn taken(size: Geometry, seed: u64, effects: &[Active], names: &[&str]) -> Result<Vec<Recording>> {
-    let (camera, plan) = (practice_camera(size), Plan::usual(seed));
-    let sensor = sensor(&camera);
-    let pixels = Arc::new(Stage::bench().pixels(&sensor, seed));
-    let chain = chain(&camera, pixels, effects.to_vec());
-    let take = |name: &&str| {
-        let recording = number_of(name);
-        let simulation = Simulation { chain: &chain, sensor: &sensor, noise: true, seed, recording };
-        recorded(Path::new("simulated"), name, &plan, &plan.course(name)?, &camera, &simulation, &|| ())
+    taken_by(&practice_camera(size), &[Plan::usual(seed)], effects, names)
+}
+
+/// The same by `camera`, once by each of the `plans`: of the second one and those after it, recordings are called by their number, too. The scene is
+/// drawn by the first one's seed.
+///
+/// # Errors
+/// As [`Plan::course`] and [`simulate`].
+pub fn taken_by(
+    camera: &Camera,
+    plans: &[Plan],
+    effects: &[Active],
+    names: &[&str],
+) -> Result<Vec<Recording>> {
+    let sensor = sensor(camera);
+    let scene = plans.first().map_or(0, |plan| plan.seed);
+    let pixels = Arc::new(Stage::bench().pixels(&sensor, scene));
+    let chain = chain(camera, pixels, effects.to_vec());
+    let take = |(number, plan, name): (usize, &Plan, &str)| {
+        let recording = number_of(name) + (number * Plan::names().len()) as u32;
+        let simulation =
+            Simulation { chain: &chain, sensor: &sensor, noise: true, seed: plan.seed, recording };
+        let called = if number == 0 { name.to_owned() } else { format!("{name}-{}", number + 1) };
+        let course = plan.course(name)?;
+        recorded(Path::new("simulated"), &called, plan, &course, camera, &simulation, &|| ())
     };
-    names.iter().map(take).collect()
+    let all = plans.iter().enumerate();
+    all.flat_map(|(number, plan)| names.iter().map(move |&name| (number, plan, name))).map(take).collect()
 }
 
 /// The number of the recording called `name`: the same recording has the same noise, whichever others are taken.

@@ -1,9 +1,10 @@
 //! One campaign: made, diagnosed, judged.
 
-use crate::bench::taken;
+use super::campaign::Campaign;
+use super::summary::Kind;
 use crate::diagnose::{Data, diagnose};
 use crate::frames::Geometry;
-use crate::physics::{Active, Effect};
+use crate::physics::{Active, Effect, effects};
 use crate::problem::Result;
 
 /// An effect in a campaign.
@@ -24,10 +25,23 @@ pub struct Case {
     pub effects: Vec<Concealed>,
     /// The coordinates where an effect lives that the registry has not; none of one that it has.
     pub lives: &'static [&'static str],
-    /// Strength of each effect, in standard deviations of the whole campaign.
-    pub rho: f64,
+    /// What is in it.
+    pub kind: Kind,
+    /// Strength of each effect, in the unit of the kind.
+    pub strength: f64,
+    /// What is recorded.
+    pub campaign: &'static Campaign,
     /// Seed of scene, noise and encoder.
     pub seed: u64,
+}
+
+/// In what the strength of an effect is counted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unit {
+    /// A standard deviation of the number.
+    Sigma(f64),
+    /// The smallest strength that 95 of 100 campaigns are said to show: of what is random, and what begins with a corner, there is no standard deviation.
+    Smallest(f64),
 }
 
 /// What a diagnosis made of it.
@@ -45,14 +59,13 @@ pub struct Outcome {
     pub errors_sigma: Vec<(&'static str, f64)>,
 }
 
-/// Recordings of a campaign.
-const RECORDINGS: [&str; 6] =
-    ["four-sweep", "four-rail", "four-motion", "wdft-sweep", "wdft-rail", "wdft-motion"];
+/// Codes are cut by whole bits, which need no statistics.
+const A_BIT: f64 = 1.0;
 
 impl Case {
     /// A campaign without any effect.
-    pub fn clean(seed: u64) -> Self {
-        Self { effects: Vec::new(), lives: &[], rho: 0.0, seed }
+    pub fn clean(campaign: &'static Campaign, seed: u64) -> Self {
+        Self { effects: Vec::new(), lives: &[], kind: Kind::Clean, strength: 0.0, campaign, seed }
     }
 
     /// The campaign; with `library` among what a diagnosis knows.
@@ -60,11 +73,11 @@ impl Case {
         let active =
             |concealed: &Concealed| Active { effect: concealed.effect, values: concealed.values.clone() };
         let effects: Vec<Active> = self.effects.iter().map(active).collect();
-        Data::of(&taken(size, self.seed, &effects, &RECORDINGS)?, library)
+        Data::of(&self.campaign.taken(size, self.seed, &effects)?, library)
     }
 
-    /// What this campaign would show of the registry's effects and those of `library`: `(effect, its first number that is seen, a standard
-    /// deviation of it)`.
+    /// What this campaign would show of the registry's effects and those of `library`: of each its first number that is seen, and the unit
+    /// of that.
     ///
     /// # Errors
     /// A campaign that cannot be made.
@@ -72,12 +85,20 @@ impl Case {
         &self,
         size: Geometry,
         library: Vec<&'static Effect>,
-    ) -> Result<Vec<(&'static str, usize, f64)>> {
-        let found = diagnose(&self.data(size, library)?).judgement.found;
-        let mut units: Vec<(&'static str, usize, f64)> = Vec::new();
-        for row in found.detectable {
+    ) -> Result<Vec<(&'static str, usize, Unit)>> {
+        let diagnosis = diagnose(&self.data(size, library)?);
+        let mut units: Vec<(&'static str, usize, Unit)> = Vec::new();
+        for row in &diagnosis.judgement.found.detectable {
             if !units.iter().any(|unit| unit.0 == row.name) {
-                units.extend(row.sigma.map(|sigma| (row.name, row.parameter, sigma)));
+                let unit = row.sigma.map_or(Unit::Smallest(row.value), Unit::Sigma);
+                units.push((row.name, row.parameter, unit));
+            }
+        }
+        // What is random is not asked of columns.
+        let others = diagnosis.answer.smallest_detectable.iter().map(|row| (row.name, row.value));
+        for (name, value) in others.chain([(effects::FIXED_POINT, A_BIT)]) {
+            if !units.iter().any(|unit| unit.0 == name) {
+                units.push((name, 0, Unit::Smallest(value)));
             }
         }
         Ok(units)

@@ -4,18 +4,21 @@
 //! The campaigns are made by the simulator that the diagnosis fits: what comes out is how well it decides, not how well its physics is that
 //! of a camera.
 
+mod campaign;
 mod case;
 mod outside;
 mod page;
 mod summary;
 
-pub use case::{Case, Concealed, Outcome};
+pub use campaign::Campaign;
+pub use case::{Case, Concealed, Outcome, Unit};
 pub use page::page;
 pub use summary::{Cell, Kind, Summary, interval};
 
 use crate::frames::Geometry;
 use crate::physics::{EFFECTS, Effect};
 use crate::problem::Result;
+use campaign::{OTHERS, USUAL};
 use outside::outside;
 use rand::SeedableRng;
 use rand::seq::IndexedRandom;
@@ -23,6 +26,8 @@ use rand_chacha::ChaCha8Rng;
 
 /// Strengths at which effects are tried, in standard deviations of the whole campaign.
 pub const STRENGTHS: [f64; 3] = [6.0, 10.0, 20.0];
+/// The same of effects of which there is no standard deviation, in what 95 of 100 campaigns are said to show, at least.
+pub const MULTIPLES: [f64; 3] = [1.0, 2.0, 3.0];
 /// Strength of each of two.
 pub const STRENGTH_OF_PAIRS: f64 = 15.0;
 /// Strengths of effects that no diagnosis knows.
@@ -57,41 +62,59 @@ impl Study {
             seed = seed.wrapping_add(1);
             this
         };
-        let mut cases: Vec<Case> = (0..self.nulls).map(|_| Case::clean(next())).collect();
+        let mut cases: Vec<Case> = (0..self.nulls).map(|_| Case::clean(&USUAL, next())).collect();
         if self.repeats + self.pairs + self.unknowns == 0 {
             return Ok(cases);
         }
         let outside = outside()?;
-        let library = outside.iter().map(|(effect, _)| *effect).collect();
         // What a clean campaign says of the strength that it would show.
-        let units = Case::clean(self.seed).detectable(self.size, library)?;
+        let mut units = Vec::new();
+        for campaign in [&USUAL].into_iter().chain(&OTHERS) {
+            let library = outside.iter().map(|(effect, _)| *effect).collect();
+            let shown = Case::clean(campaign, self.seed).detectable(self.size, library)?;
+            units.extend(shown.into_iter().filter(|(name, ..)| Campaign::of(name) == campaign));
+        }
         // What the campaign shows only beyond an effect's bounds is not tried.
-        let concealed = |effect: &'static Effect, rho: f64| {
+        let concealed = |effect: &'static Effect, strength: f64| {
             let &(_, number, unit) = units.iter().find(|unit| unit.0 == effect.name)?;
-            Some(Concealed { effect, number, values: at(effect, number, rho * unit)? })
+            let (kind, one) = match unit {
+                Unit::Sigma(sigma) => (Kind::Single, sigma),
+                Unit::Smallest(value) => (Kind::Multiple, value),
+            };
+            Some((kind, Concealed { effect, number, values: at(effect, number, strength * one)? }))
         };
-        let effects: Vec<&'static Effect> =
-            EFFECTS.iter().copied().filter(|effect| effect.is_predicted()).collect();
-        for &effect in &effects {
-            for rho in STRENGTHS {
-                let Some(alone) = concealed(effect, rho) else { continue };
-                for _ in 0..self.repeats {
-                    cases.push(Case { effects: vec![alone.clone()], lives: &[], rho, seed: next() });
+        for &effect in EFFECTS {
+            for (of, strengths) in [(Kind::Single, STRENGTHS), (Kind::Multiple, MULTIPLES)] {
+                for strength in strengths {
+                    let Some((kind, alone)) = concealed(effect, strength) else { continue };
+                    let repeats = if kind == of { self.repeats } else { 0 };
+                    for _ in 0..repeats {
+                        let effects = vec![alone.clone()];
+                        let campaign = Campaign::of(effect.name);
+                        cases.push(Case { effects, lives: &[], kind, strength, campaign, seed: next() });
+                    }
                 }
             }
         }
-        let rho = STRENGTH_OF_PAIRS;
-        let strong: Vec<Concealed> = effects.iter().filter_map(|effect| concealed(effect, rho)).collect();
+        let strength = STRENGTH_OF_PAIRS;
+        let usual = EFFECTS.iter().filter(|effect| Campaign::of(effect.name) == &USUAL);
+        let strong: Vec<Concealed> = usual
+            .filter_map(|effect| concealed(effect, strength))
+            .filter_map(|(kind, concealed)| (kind == Kind::Single).then_some(concealed))
+            .collect();
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         for _ in 0..self.pairs {
-            let pair = strong.sample(&mut rng, 2).cloned().collect();
-            cases.push(Case { effects: pair, lives: &[], rho, seed: next() });
+            let effects = strong.sample(&mut rng, 2).cloned().collect();
+            let (kind, campaign) = (Kind::Pair, &USUAL);
+            cases.push(Case { effects, lives: &[], kind, strength, campaign, seed: next() });
         }
         for &(effect, lives) in &outside {
-            for rho in STRENGTHS_OF_UNKNOWNS {
-                let Some(alone) = concealed(effect, rho) else { continue };
+            for strength in STRENGTHS_OF_UNKNOWNS {
+                let Some((_, alone)) = concealed(effect, strength) else { continue };
                 for _ in 0..self.unknowns {
-                    cases.push(Case { effects: vec![alone.clone()], lives, rho, seed: next() });
+                    let (kind, campaign) = (Kind::Unknown, &USUAL);
+                    let effects = vec![alone.clone()];
+                    cases.push(Case { effects, lives, kind, strength, campaign, seed: next() });
                 }
             }
         }

@@ -1,16 +1,26 @@
 //! A study as a page.
 
+use super::campaign::OTHERS;
 use super::outside::lives;
 use super::summary::tenths;
-use super::{Cell, Kind, STRENGTH_OF_PAIRS, STRENGTHS, STRENGTHS_OF_UNKNOWNS, Study, Summary, interval};
+use super::{
+    Cell, Kind, MULTIPLES, STRENGTH_OF_PAIRS, STRENGTHS, STRENGTHS_OF_UNKNOWNS, Study, Summary, interval,
+};
 use std::fmt::Write;
 
-/// Kinds of cases, what they are called, and their strengths.
-const KINDS: [(Kind, &str, &[f64]); 3] = [
-    (Kind::Single, "one effect", &STRENGTHS),
-    (Kind::Pair, "two effects", &[STRENGTH_OF_PAIRS]),
-    (Kind::Unknown, "an unknown effect", &STRENGTHS_OF_UNKNOWNS),
+/// Kinds of cases, what they are called, in what their strengths are, and these.
+const KINDS: [(Kind, &str, &str, &[f64]); 4] = [
+    (Kind::Single, "one effect", "rho ", &STRENGTHS),
+    (Kind::Multiple, "one effect", "× ", &MULTIPLES),
+    (Kind::Pair, "two effects", "rho ", &[STRENGTH_OF_PAIRS]),
+    (Kind::Unknown, "an unknown effect", "rho ", &STRENGTHS_OF_UNKNOWNS),
 ];
+
+/// A strength of a kind in words.
+fn strength(of: Kind, tenths: u32) -> String {
+    let unit = KINDS.iter().find(|(kind, ..)| *kind == of).map_or("", |(_, _, unit, _)| unit);
+    format!("{unit}{}", f64::from(tenths) / 10.0)
+}
 
 fn counts(cell: &Cell, between: &str) -> String {
     let Cell { right, possible, part, silent, unexplained, wrong } = cell;
@@ -27,6 +37,13 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
          the first number of each effect\nthat a clean campaign would show; its other strengths are off. Of two effects each has its strength alone. Unknown \
          effects are formulas that\nno diagnosis is told of (`src/study/outside.rs`).\n\n"
     );
+    text += "Of what is random, of a well that is full too early, and of codes that are cut there is no standard deviation: strengths with × are multiples of the smallest\n\
+             one that a clean campaign is said to show with 95 %, or bits.";
+    for campaign in &OTHERS {
+        // Writing to a string cannot fail.
+        let _ = write!(text, " In campaigns {}: {}.", campaign.what, campaign.shows.join(", "));
+    }
+    text += "\n\n";
     // Writing to a string cannot fail.
     let (nulls, alarms) = (summary.nulls, summary.alarms.len());
     let (low, high) = interval(alarms, nulls);
@@ -50,8 +67,8 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
         100.0 * low,
         100.0 * high
     );
-    let missed = |(name, tenths, error): &(&str, u32, f64)| {
-        format!(" {name} at rho {}: {error:+.1}.", f64::from(*tenths) / 10.0)
+    let missed = |&(name, (kind, tenths), error): &(&str, (Kind, u32), f64)| {
+        format!(" {name} at {}: {error:+.1}.", strength(kind, tenths))
     };
     if !summary.missed.is_empty() {
         let all: String = summary.missed.iter().map(missed).collect();
@@ -63,17 +80,18 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
     text += "Right: the effects were named, and no other; of an unknown one: none was, and a coordinate where it lives led. Possible: others were, and what was \
              said to be\npossible too completes them. Part: one of two, and no other. Silent: no alarm. Unexplained: an alarm and no name; of an unknown effect: \
              in another place.\n\n";
-    text += "| kind | rho | cases | right | possible | part | silent | unexplained | wrong |\n";
+    text += "| kind | strength | cases | right | possible | part | silent | unexplained | wrong |\n";
     text += "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
-    for (kind, called, strengths) in KINDS {
-        for &rho in strengths {
-            let cell = summary.at(kind, rho);
+    for (kind, called, unit, strengths) in KINDS {
+        for &at in strengths {
+            let cell = summary.at(kind, at);
             if cell.cases() > 0 {
-                let _ = writeln!(text, "| {called} | {rho} | {} | {} |", cell.cases(), counts(&cell, " | "));
+                let counts = counts(&cell, " | ");
+                let _ = writeln!(text, "| {called} | {unit}{at} | {} | {counts} |", cell.cases());
             }
         }
     }
-    for (kind, called, strengths) in KINDS.iter().filter(|kind| kind.0 != Kind::Pair) {
+    for (kind, called, unit, strengths) in KINDS.iter().filter(|kind| kind.0 != Kind::Pair) {
         let of: Vec<_> = summary.cells.iter().filter(|((of, ..), _)| of == kind).collect();
         let mut names: Vec<&str> = of.iter().map(|((_, name, _), _)| &name[..]).collect();
         names.dedup();
@@ -82,7 +100,7 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
         }
         let _ =
             write!(text, "\n{called}: right / possible / part / silent / unexplained / wrong.\n\n| effect |");
-        strengths.iter().for_each(|rho| text += &format!(" rho {rho} |"));
+        strengths.iter().for_each(|at| text += &format!(" {unit}{at} |"));
         text += "\n| --- |";
         strengths.iter().for_each(|_| text += " ---: |");
         text += "\n";
@@ -90,8 +108,8 @@ pub fn page(study: &Study, summary: &Summary, command: &str) -> String {
             let lives = lives(name).join(", ");
             let lives = if lives.is_empty() { lives } else { format!(" ({lives})") };
             let _ = write!(text, "| {name}{lives} |");
-            for rho in *strengths {
-                let cell = of.iter().find(|((_, of, at), _)| of == name && *at == tenths(*rho));
+            for strength in *strengths {
+                let cell = of.iter().find(|((_, of, at), _)| of == name && *at == tenths(*strength));
                 let _ = write!(text, " {} |", cell.map_or_else(String::new, |(_, cell)| counts(cell, " / ")));
             }
             text += "\n";

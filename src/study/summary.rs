@@ -3,11 +3,15 @@
 use super::case::{Case, Outcome};
 use std::collections::BTreeMap;
 
-/// What is in a campaign that is not clean.
+/// What is in a campaign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// An effect of the registry.
+    /// Nothing.
+    Clean,
+    /// An effect of the registry, of which a strength has a standard deviation.
     Single,
+    /// One of which it has none: its strength is a multiple of the smallest one that is said to show.
+    Multiple,
     /// Two.
     Pair,
     /// One that the registry has not.
@@ -45,12 +49,12 @@ pub struct Summary {
     pub nulls: usize,
     /// Alarms among them: seed, and what was said.
     pub alarms: Vec<(u64, String)>,
-    /// By kind, effects and strength (in tenths of a standard deviation).
+    /// By kind, effects and strength (in tenths).
     pub cells: BTreeMap<(Kind, String, u32), Cell>,
     /// Numbers whose 95 % interval was stated, those that lie within, and those within three standard deviations.
     pub intervals: (usize, usize, usize),
-    /// Those that lie outside: the effect, the strength (in tenths of a standard deviation), and by how many standard deviations its number is off.
-    pub missed: Vec<(&'static str, u32, f64)>,
+    /// Those that lie outside: the effect, kind and strength (in tenths), and by how many standard deviations its number is off.
+    pub missed: Vec<(&'static str, (Kind, u32), f64)>,
     /// What was named in place of what: `(effects, named)`, and how often.
     pub confused: BTreeMap<(String, String), usize>,
 }
@@ -64,7 +68,7 @@ impl Summary {
         let mut summary = Self::default();
         for (case, outcome) in outcomes {
             let names: Vec<&str> = case.effects.iter().map(|concealed| concealed.effect.name).collect();
-            if names.is_empty() {
+            if case.kind == Kind::Clean {
                 summary.nulls += 1;
                 if outcome.verdict != "clean" {
                     let said = format!("{} {}", outcome.verdict, outcome.named.join(" + "));
@@ -72,13 +76,9 @@ impl Summary {
                 }
                 continue;
             }
-            let kind = match (names.len(), case.lives) {
-                (1, []) => Kind::Single,
-                (_, []) => Kind::Pair,
-                _ => Kind::Unknown,
-            };
-            let key = (kind, names.join(" + "), tenths(case.rho));
-            let count = judged(kind, case, &names, outcome);
+            let at = (case.kind, tenths(case.strength));
+            let key = (at.0, names.join(" + "), at.1);
+            let count = judged(case, &names, outcome);
             *count(summary.cells.entry(key).or_default()) += 1;
             let is_other = outcome.named.iter().any(|named| !names.contains(named));
             if is_other {
@@ -90,7 +90,7 @@ impl Summary {
                 summary.intervals.1 += usize::from(is_within);
                 summary.intervals.2 += usize::from(error.abs() < 3.0);
                 if !is_within {
-                    summary.missed.push((name, tenths(case.rho), error));
+                    summary.missed.push((name, at, error));
                 }
             }
         }
@@ -98,10 +98,10 @@ impl Summary {
     }
 
     /// All cells of a kind and strength together.
-    pub fn at(&self, of: Kind, rho: f64) -> Cell {
+    pub fn at(&self, of: Kind, at: f64) -> Cell {
         let mut total = Cell::default();
         for ((kind, _, strength), cell) in &self.cells {
-            if *kind == of && *strength == tenths(rho) {
+            if *kind == of && *strength == tenths(at) {
                 total.right += cell.right;
                 total.possible += cell.possible;
                 total.part += cell.part;
@@ -114,13 +114,13 @@ impl Summary {
     }
 }
 
-/// A strength in tenths of a standard deviation, by which cells are found.
-pub fn tenths(rho: f64) -> u32 {
-    (10.0 * rho).round() as u32
+/// A strength in tenths, by which cells are found.
+pub fn tenths(strength: f64) -> u32 {
+    (10.0 * strength).round() as u32
 }
 
 /// Where a case is counted.
-fn judged(kind: Kind, case: &Case, names: &[&str], outcome: &Outcome) -> fn(&mut Cell) -> &mut usize {
+fn judged(case: &Case, names: &[&str], outcome: &Outcome) -> fn(&mut Cell) -> &mut usize {
     let missed: Vec<&str> = names.iter().copied().filter(|name| !outcome.named.contains(name)).collect();
     let hits = names.len() - missed.len();
     let others = outcome.named.len() - hits;
@@ -129,7 +129,7 @@ fn judged(kind: Kind, case: &Case, names: &[&str], outcome: &Outcome) -> fn(&mut
     let lives = outcome.located.is_some_and(|located| case.lives.contains(&located));
     match (hits, others) {
         (0, 0) if !is_alarm => |cell| &mut cell.silent,
-        (0, 0) if kind == Kind::Unknown && lives => |cell| &mut cell.right,
+        (0, 0) if case.kind == Kind::Unknown && lives => |cell| &mut cell.right,
         (0, 0) => |cell| &mut cell.unexplained,
         (_, 0) if missed.is_empty() => |cell| &mut cell.right,
         (_, others) if missed.len() == others && missed.iter().all(is_said) => |cell| &mut cell.possible,
@@ -153,6 +153,7 @@ pub fn interval(some: usize, all: usize) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::super::Concealed;
+    use super::super::campaign::USUAL;
     use super::*;
     use crate::physics::effects;
 
@@ -164,9 +165,14 @@ mod tests {
         };
         let case = |names: &[&str], lives: &'static [&'static str]| {
             let effects = names.iter().map(|name| concealed(name)).collect();
-            Case { effects, lives, rho: 10.0, seed: 1 }
+            let kind = match (names.len(), lives) {
+                (1, []) => Kind::Single,
+                (_, []) => Kind::Pair,
+                _ => Kind::Unknown,
+            };
+            Case { effects, lives, kind, strength: 10.0, campaign: &USUAL, seed: 1 }
         };
-        let (lag, clean) = (case(&["image_lag"], &[]), Case::clean(1));
+        let (lag, clean) = (case(&["image_lag"], &[]), Case::clean(&USUAL, 1));
         let (pair, unknown) = (case(&["image_lag", "frame_gain"], &[]), case(&["lens_scatter"], &["set"]));
         let outcome = |verdict, named: &[&'static str], possible: &[&str], errors_sigma: &[f64]| Outcome {
             verdict,
@@ -201,7 +207,10 @@ mod tests {
         assert_eq!(summary.at(Kind::Pair, 10.0), Cell { right: 1, possible: 1, part: 1, wrong: 1, ..none });
         assert_eq!(summary.at(Kind::Unknown, 10.0), Cell { right: 1, unexplained: 1, wrong: 1, ..none });
         assert_eq!(summary.intervals, (5, 3, 5));
-        assert_eq!(summary.missed, [("image_lag", 100, -2.5), ("image_lag", 100, 2.0)]);
+        assert_eq!(
+            summary.missed,
+            [("image_lag", (Kind::Single, 100), -2.5), ("image_lag", (Kind::Pair, 100), 2.0)]
+        );
         let (of, named) = ("image_lag".to_owned(), "saturation".to_owned());
         assert_eq!(summary.confused.get(&(of, named)), Some(&2));
     }
