@@ -416,6 +416,27 @@ fn a_drift_that_began_before_the_recording_is_one_drift() {
     assert!((before - 1.0).abs() < 0.02, "{verdict:#}");
 }
 
+/// Light that rises as the square of its time, as at dawn: a drift, and no other camera's beat that frames see nearly at rest, nor what scatters beside it.
+#[test]
+fn a_drift_that_accelerates_is_one_drift() {
+    let verdict = verdict_of("four-sweep,wdft-rail", |sample| {
+        let share = time_s(sample) / 30.0;
+        with(sample, 3.0 * share * share)
+    });
+    assert_eq!(names(&verdict), ["ambient_drift"], "{verdict:#}");
+    assert_eq!(parameter(&verdict, "accelerates").0, 1.0, "{verdict:#}");
+}
+
+/// The same of the camera's own light, and of its phase.
+#[test]
+#[ignore = "minutes: make slow"]
+fn what_fades_or_turns_ever_faster_is_a_drift() {
+    for (name, strength) in [("illumination_drift", "relative=0.003"), ("phase_drift", "drift_rad=0.003")] {
+        let effect = format!("{name}:{strength},time_constant_s=15,accelerates=1");
+        assert_eq!(names_of(&effect), [name]);
+    }
+}
+
 /// A phase shifter of which every step is too large makes the sets' phase offsets too large as well, which in a sweep is no drift.
 #[test]
 fn a_scale_of_steps_and_offsets_is_no_drift() {

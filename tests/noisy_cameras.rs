@@ -119,6 +119,17 @@ fn is_named_beside(noises: &[Noise]) {
     }
 }
 
+/// A jitter lets all rows of a frame be off together; rows that are noisy besides are noise nevertheless, and the jitter is none.
+#[test]
+fn a_jitter_is_named_beside_rows_that_are_noisy() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, rows, _) = NOISES[0];
+    let verdict = verdict(&campaign(folder.path(), "jitter", &["clock_jitter:sigma_rad=0.008"], rows));
+    assert_eq!(names(&verdict), ["clock_jitter"], "{verdict:#}");
+    let number = |of: &str| verdict["effects"][0]["parameters"][0][of].as_f64().unwrap();
+    assert!((number("value") - 0.008).abs() < 0.0015, "{verdict:#}");
+}
+
 /// Rows that are off by what repeats, or stands still along the rows or in time, are no noise: that is an effect which nobody knows.
 #[test]
 fn rows_that_are_not_white_are_no_noise() {

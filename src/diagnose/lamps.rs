@@ -1,7 +1,7 @@
 //! Whether a line of the ambient light is a lamp's: lamps flicker with twice the mains' frequency.
 
 use super::gaps::{gaps, seen_cycles};
-use super::lines::{CLEARLY_MORE, MAINS_DRIFT_CYCLES, Series, most_between};
+use super::lines::{CLEARLY_MORE, DRIFT_CYCLES, MAINS_DRIFT_CYCLES, Series, most_between};
 
 /// The effect that is a line in time.
 pub const FLICKER: &str = "ambient_flicker";
@@ -30,6 +30,11 @@ impl Series {
         let of_mains = || TWICE_MAINS_HZ.map(|hz| near(hz, NEAR_MAINS)).into_iter().fold(0.0, f64::max);
         let clearly = CLEARLY_MORE * inflation.max(1.0);
         TWICE_MAINS_HZ.iter().any(is_near) || near(frequency_hz, MAINS_OFF) < of_mains() + clearly
+    }
+
+    /// Whether no recording sees more of a line of this frequency, Hz, than a drift has that goes up and down.
+    pub fn sees_at_rest(&self, frequency_hz: f64) -> bool {
+        self.by_take().iter().all(|take| seen_cycles(&gaps(take), frequency_hz) < DRIFT_CYCLES)
     }
 
     /// Whether all recordings see a lamp's flicker at rest: it is a drift to them, and a drift may be a flicker.

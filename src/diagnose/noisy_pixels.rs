@@ -1,4 +1,5 @@
-//! Pixels that have far more noise of their own than others: hot ones, and ones that flicker (random telegraph noise).
+//! Pixels that have far more noise of their own than others (hot ones, and ones that flicker: random telegraph noise), or far less (dead ones, which
+//! would speak for all of their column as if they saw as much as others).
 
 use super::columns::Tangents;
 use super::data::Data;
@@ -11,6 +12,8 @@ use super::whiten::whiten;
 
 /// What a pixel's residual changes by from a set to the same one again has so many times the variance of the usual pixel's.
 const NOISIER: f64 = 4.0;
+/// The same of a dead one.
+const QUIETER: f64 = 0.25;
 /// The usual pixel's is noise alone: so many times that at most. What is left out of the simulation may change faster, and bright pixels show more of it.
 const USUAL: f64 = 1.5;
 /// More than this share of all pixels, and more than one, is no fault of theirs.
@@ -20,7 +23,8 @@ const LEAST: usize = 40;
 /// So many pairs of sets are looked at one after the other.
 const TOGETHER: usize = 8;
 
-/// The pixels whose noise is far above that of others; none where they are many, or where no set was taken again. `fit` says what their signal is.
+/// The pixels whose noise is far above that of others, or far below, in order; none of either where they are many, or where no set was taken again. `fit` says what
+/// their signal is.
 ///
 /// Physics that is left out is the same in a set that is taken again at the same place, and goes from a difference of the two; noise does not.
 pub fn noisy_pixels(data: &Data, fit: &Fit, noise: Noise) -> Vec<usize> {
@@ -64,10 +68,18 @@ pub fn noisy_pixels(data: &Data, fit: &Fit, noise: Noise) -> Vec<usize> {
     let Some(sums) = joined(&again, TOGETHER, changes, join) else { return Vec::new() };
     let variance = |&(square, count): &(f64, usize)| (count >= LEAST).then(|| square / count as f64);
     let usual = median(&mut sums.iter().filter_map(variance).collect::<Vec<f64>>());
-    let is_noisy = |pixel: &usize| variance(&sums[*pixel]).is_some_and(|own| own > NOISIER * usual);
-    let noisy: Vec<usize> = (0..pixels).filter(is_noisy).collect();
+    if usual > USUAL {
+        return Vec::new();
+    }
     let most = (FEW * pixels as f64).max(1.0);
-    if usual > USUAL || noisy.len() as f64 > most { Vec::new() } else { noisy }
+    let few = |is_off: &dyn Fn(f64) -> bool| {
+        let off = (0..pixels).filter(|&pixel| variance(&sums[pixel]).is_some_and(is_off));
+        let off: Vec<usize> = off.collect();
+        if off.len() as f64 > most { Vec::new() } else { off }
+    };
+    let mut off = [few(&|own| own > NOISIER * usual), few(&|own| own < QUIETER * usual)].concat();
+    off.sort_unstable();
+    off
 }
 
 #[cfg(test)]
@@ -79,7 +91,7 @@ mod tests {
     use crate::frames::Geometry;
     use crate::physics::Draws;
 
-    /// The pixels that are noisy in recordings with an `effect`, of which these have so many DN of noise more.
+    /// The pixels that are noisy in recordings with an `effect`, of which these have so many DN of noise more; or, where that is none, no noise at all.
     fn noisy(effect: &str, recordings: &[&str], pixels: &[(usize, f64)]) -> Vec<usize> {
         let size = Geometry { width: 16, height: 12 };
         let effects = [injection(effect).unwrap()];
@@ -88,7 +100,10 @@ mod tests {
             for &(pixel, noise_dn) in pixels {
                 let frames = recording.signal_dn.chunks_exact_mut(size.pixels());
                 let deviates = Draws::of(pixel as u64, take as u64).normal(recording.moments.len());
-                frames.zip(deviates).for_each(|(frame, deviate)| frame[pixel] += (noise_dn * deviate) as f32);
+                frames.zip(deviates).for_each(|(frame, deviate)| match noise_dn {
+                    0.0 => frame[pixel] = 1.0,
+                    _ => frame[pixel] += (noise_dn * deviate) as f32,
+                });
             }
         }
         let noise = stated_noise(&data);
@@ -102,6 +117,8 @@ mod tests {
             assert_eq!(noisy(effect, &all, &[]), [0; 0], "{effect}");
             assert_eq!(noisy(effect, &all, &[(37, 60.0), (90, 30.0)]), [37, 90], "{effect}");
         }
+        // A dead one says nothing either, whether others are hot or not.
+        assert_eq!(noisy("encoder_cyclic", &all, &[(37, 60.0), (90, 0.0), (20, 0.0)]), [20, 37, 90]);
         // Many are no fault of theirs, and without a set that was taken again nothing is known.
         let many: Vec<(usize, f64)> = (40..46).map(|pixel| (pixel, 60.0)).collect();
         assert_eq!(noisy("lens_scatter:share=0", &all, &many), [0; 0]);

@@ -168,6 +168,8 @@ const UNLIKELY: [(&str, f64); 1] = [("encoder_offset", 10.0)];
 
 /// Effects that are no continuation of themselves beyond off: what moves to one side brings what lies on the other, and what it does must be looked at by itself.
 const WITH_SIDES: [&str; 1] = ["lateral_motion"];
+/// Choices that are looked at in one shape only: near it, all look alike.
+const IN_ONE_SHAPE: [(&str, f64, f64); 1] = [("accelerates", 1.0, 60.0)];
 /// A strength on the far side of off begins at so much of its usual size.
 const BARELY: f64 = -1e-9;
 
@@ -285,8 +287,12 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));
     let name_of_choice = choice.map_or("", |choice| effect.parameters[choice].name);
     let usual_choices = choices.iter().filter(|&&chosen| !is_seldom(effect.name, name_of_choice, chosen));
-    let ways =
-        usual_choices.flat_map(|&chosen| shapes.iter().filter(is_within).map(move |&value| (chosen, value)));
+    let is_looked_at = |(chosen, value): &(f64, f64)| {
+        IN_ONE_SHAPE.iter().all(|(name, of, one)| *name != name_of_choice || of != chosen || one == value)
+    };
+    let ways = usual_choices
+        .flat_map(|&chosen| shapes.iter().filter(is_within).map(move |&value| (chosen, value)))
+        .filter(is_looked_at);
     for (chosen, value) in ways {
         let mut values = effect.off();
         shape.into_iter().for_each(|shape| values[shape] = value);

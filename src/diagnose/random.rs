@@ -26,6 +26,8 @@ const ORDERED_MOST: f64 = 0.5;
 const FEW_FRAMES: f64 = 20.0;
 /// Of what the forms of named effects may leave, so much may look as if it were random.
 const AT_RANDOM: f64 = 0.05;
+/// Errors that are none of what noise lets appear have so many times the evidence that it may have.
+const MORE_THAN_SHADOW: f64 = 2.0;
 /// Frames' errors may have so many times the noise's variance for each set. (Of an error's information the pixels' own numbers take a part of one over the
 /// number of sets.)
 const TIED: f64 = 0.1;
@@ -82,9 +84,17 @@ pub fn noise<'a>(data: &Data, location: &'a Location) -> Option<&'a Cluster> {
     (strongest.level == Level::Pixel || is_white).then_some(strongest)
 }
 
-/// Random errors that are no noise; best first. Beside noise none is known: each of them would be seen as a shadow of it.
+/// Random errors that are no noise; best first. Beside noise those alone are known that an effect makes, and that are more than a shadow of it.
 pub fn errors<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
-    if noise(data, location).is_some() { Vec::new() } else { unusual(data, location) }
+    let all = unusual(data, location);
+    let Some(noise) = noise(data, location) else { return all };
+    let least = CLUSTER_NATS + MORE_THAN_SHADOW * shadow(noise.inflation, location.jitters.frames().len());
+    all.into_iter().filter(|errors| effect_of(errors).is_some() && errors.ln_bayes > least).collect()
+}
+
+/// Evidence (nats) of errors of so many frames that there seem to be where noise raises the variance of what frames say by `inflation`, at most: of each the likelihood's mean.
+fn shadow(inflation: f64, frames: usize) -> f64 {
+    0.5 * frames as f64 * (inflation - 1.0 - inflation.ln()).max(0.0)
 }
 
 /// By how much random errors, noise among them, raise the variance of what columns say; 1 where there are none.

@@ -18,6 +18,7 @@ use super::pass::{Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates};
 use super::promised::Promised;
 use super::refined::refined;
+use super::resting::drop_resting;
 use super::tolerated::tolerated;
 use super::trust::Trust;
 use super::uneven::uneven;
@@ -114,6 +115,7 @@ impl<'a> Search<'a> {
         }
         uneven(self.data, self.noise, &mut self.current, &mut self.named);
         drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
+        drop_resting(self.data, self.noise, &mut self.current, &mut self.named);
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
         let Self { data, noise, baseline, current, mut named, .. } = self;
         let current = without_bounded(data, finished(data, current, noise), noise, &mut named);

@@ -5,6 +5,7 @@ use super::answer::{Answer, Invisible, LocatedRow, NextRecording, Remainder, Sma
 use super::backgrounds::counts_at_hz;
 use super::bounds::is_bounded;
 use super::conclusion::Verdict;
+use super::covered::{covered, without_light};
 use super::data::Data;
 use super::effect_row::effect_row;
 use super::evidence::tail;
@@ -79,6 +80,9 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     let masked = if data.assumed.still_scene { None } else { with_mask(data, noise) };
     let (data, moved) = masked.as_ref().map_or((data, 0), |(data, moved)| (data, *moved));
     let mut baseline = unfitted(data, noise);
+    let covered = covered(data, &baseline, noise);
+    let data = covered.as_ref().map_or(data, |(data, _)| data);
+    baseline = covered.as_ref().map_or(baseline, |(_, fit)| fit.clone());
     let below = below_full(data, &baseline, noise);
     if let Some(below) = &below {
         baseline = unfitted(below, noise);
@@ -119,6 +123,7 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     answer.provenance["overstated"] = json!(overstated);
     answer.provenance["background_counts_at_hz"] = json!(counts_at_hz(&data.takes));
+    answer.provenance["recordings_without_any_light"] = json!(without_light(data));
     answer.provenance["own_phases"] = json!(judgement.fit.pixels.at_frequencies);
     Diagnosis { judgement, held_out, overstated, left_out, answer, geometry: data.geometry() }
 }

@@ -1,5 +1,5 @@
 //! Whether errors that samples share are white, as noise is: not alike in neighbouring rows, in one frame after the other, in one set after
-//! the other.
+//! the other. What all rows of a frame have in common is the frame's, and is not asked here.
 
 use std::collections::VecDeque;
 
@@ -32,14 +32,15 @@ impl White {
             self.before.clear();
         }
         self.seen = (self.seen.0 + 1, self.seen.1.max(errors.len()));
+        let (errors, taken) = within(errors);
         for (lag, sum) in ALONG.into_iter().zip(&mut self.sums) {
-            products(sum, &errors, errors.get(lag..).unwrap_or_default());
+            products(sum, &errors, errors.get(lag..).unwrap_or_default(), taken);
         }
         let of_frames = AFTER.map(|lag| if frame >= lag { lag } else { 0 });
         let of_sets = AFTER.map(|lag| lag * frames);
         for (lag, sum) in of_frames.into_iter().chain(of_sets).zip(&mut self.sums[ALONG.len()..]) {
             let other = lag.checked_sub(1).and_then(|place| self.before.get(place));
-            products(sum, &errors, other.map_or(&[][..], |other| &other[..]));
+            products(sum, &errors, other.map_or(&[][..], |other| &other[..]), 0.0);
         }
         self.before.push_front(errors);
         self.before.truncate(AFTER[1] * frames);
@@ -68,8 +69,23 @@ impl White {
     }
 }
 
-fn products(sum: &mut (f64, f64, usize), some: &[f64], others: &[f64]) {
-    for product in some.iter().zip(others).map(|(one, other)| one * other) {
+/// What several `errors` of one frame are beside their mean (0 is none), and what that takes from the product of two on average: of white ones the variance over their
+/// number.
+fn within(mut errors: Vec<f64>) -> (Vec<f64>, f64) {
+    let count = errors.iter().filter(|error| **error != 0.0).count() as f64;
+    if count < 2.0 {
+        return (errors, 0.0);
+    }
+    let mean = errors.iter().sum::<f64>() / count;
+    errors.iter_mut().filter(|error| **error != 0.0).for_each(|error| *error -= mean);
+    let variance = errors.iter().map(|error| error * error).sum::<f64>() / (count - 1.0);
+    (errors, variance / count)
+}
+
+/// Products of `some` errors and `others`, of which each has `less` than it would have.
+fn products(sum: &mut (f64, f64, usize), some: &[f64], others: &[f64], less: f64) {
+    let both = some.iter().zip(others).filter(|(one, other)| **one != 0.0 && **other != 0.0);
+    for product in both.map(|(one, other)| one * other + less) {
         sum.0 += product;
         sum.1 += product * product;
         sum.2 += 1;
@@ -114,11 +130,24 @@ mod tests {
         );
     }
 
+    /// Frames that are off as a whole, by more than rows scatter, leave white rows white; of errors of frames themselves that is what is asked.
+    #[test]
+    fn what_all_rows_have_in_common_is_the_frames() {
+        assert!(correlation(|draws, set, frame, row| draws[row] + 3.0 * ((set + frame) as f64).sin()) < 3.0);
+        assert!(
+            correlation(|draws, _, _, row| draws[row] + 3.0 * draws[0] + 0.7 * [1.0, -1.0][row % 2]) > 10.0
+        );
+        let mut frames = White::default();
+        (0..120).for_each(|n| frames.add(vec![(0.1 * f64::from(n)).sin()], (n % 3) as usize, 3, n == 0));
+        assert!(frames.correlation().unwrap() > 10.0);
+    }
+
     #[test]
     fn both_parts_count() {
         let frames = |frames: usize| {
             let mut white = White::default();
-            (0..frames).for_each(|frame| white.add(vec![1.0; ROWS], frame % 3, 3, frame == 0));
+            let stripes = || (0..ROWS).map(|row| [1.0, -1.0][row % 2]).collect();
+            (0..frames).for_each(|frame| white.add(stripes(), frame % 3, 3, frame == 0));
             white
         };
         let one = frames(120);

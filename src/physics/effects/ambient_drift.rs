@@ -1,17 +1,18 @@
 //! Ambient light that drifts.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, settled};
 
 /// Relative change of the ambient light, a second, when the recording begins; by how much it had changed before; and the time in which it settles,
-/// as lamps do that warm up: 10 000 s is as good as never.
+/// as lamps do that warm up: 10 000 s is as good as never. Or light that accelerates, as at dawn: the time in which it becomes twice as fast.
 pub static EFFECT: Effect = Effect {
     name: "ambient_drift",
     sentence: "The ambient light drifts during the recording.",
-    reference: "B_n = B0 + b n; or B(t) = B0 + b tau (1 - exp(-t/tau))",
+    reference: "B_n = B0 + b n; or B(t) = B0 + b tau (1 - exp(-t/tau)); or B0 + b (t + t^2 / (2 tau))",
     parameters: &[
         Parameter::strength("relative_a_second", "1/s", 0.0, (-0.5, 0.5), 0.005),
         Parameter::strength("relative_before", "1", 0.0, (-0.9, 9.0), 0.1).of_recording(),
         Parameter::shape("time_constant_s", "s", 1e4, (2.0, 1e4), &[1e4, 60.0, 10.0]),
+        Parameter::choice("accelerates", "1", &[0.0, 1.0]),
     ],
     place: Place::Light,
     chance: Chance::None,
@@ -21,7 +22,7 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let passed_s = -libm::expm1(-exposure.moment.time_s / values[2]) * values[2];
+    let passed_s = settled(exposure.moment.time_s, values[2], values[3]) * values[2];
     let factor = 1.0 + values[1] + values[0] * passed_s;
     exposure.ambient_dn.iter_mut().for_each(|ambient| *ambient *= factor);
 }

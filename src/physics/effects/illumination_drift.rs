@@ -1,17 +1,18 @@
 //! The camera's own light drifts over minutes.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, settled};
 
 /// Relative loss of the camera's own light by the time a warm-up takes, what it had lost when the recording began, and the time of a warm-up. Of light that falls
-/// evenly both the first and the last are large; there is none below no light.
+/// evenly both the first and the last are large; there is none below no light. Or light that fades ever faster, and the time in which that becomes twice as fast.
 pub static EFFECT: Effect = Effect {
     name: "illumination_drift",
     sentence: "The power of the camera's own light drifts over minutes as it warms up.",
-    reference: "A(t) = A (1 - k (1 - exp(-t/tau)))",
+    reference: "A(t) = A (1 - k (1 - exp(-t/tau))), or A (1 - k (t/tau + (t/tau)^2 / 2))",
     parameters: &[
         Parameter::strength("relative", "1", 0.0, (-20.0, 20.0), 0.03),
         Parameter::strength("relative_before", "1", 0.0, (-0.8, 0.8), 0.03).of_recording(),
         Parameter::shape("time_constant_s", "s", 30.0, (2.0, 2000.0), &[10.0, 60.0, 600.0]),
+        Parameter::choice("accelerates", "1", &[0.0, 1.0]),
     ],
     place: Place::Light,
     chance: Chance::None,
@@ -21,6 +22,6 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let warm = 1.0 - libm::exp(-exposure.moment.time_s / values[2]);
+    let warm = settled(exposure.moment.time_s, values[2], values[3]);
     exposure.scale_light((1.0 - values[1] - values[0] * warm).max(0.0));
 }

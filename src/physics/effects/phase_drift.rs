@@ -1,16 +1,18 @@
 //! The phase drifts with temperature.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, settled};
 
-/// Drift of the phase by the time a warm-up takes, by how much it had drifted when the recording began, and the time of a warm-up.
+/// Drift of the phase by the time a warm-up takes, by how much it had drifted when the recording began, and the time of a warm-up. Or of a drift
+/// that accelerates, the time in which it becomes twice as fast.
 pub static EFFECT: Effect = Effect {
     name: "phase_drift",
     sentence: "The phase of light against sensor drifts while the camera warms up, for all pixels alike.",
-    reference: "Corti et al. 2015; phi_0(t) = k (1 - exp(-t/tau))",
+    reference: "Corti et al. 2015; phi_0(t) = k (1 - exp(-t/tau)); or k (t/tau + (t/tau)^2 / 2)",
     parameters: &[
         Parameter::strength("drift_rad", "rad", 0.0, (-1.0, 1.0), 0.01),
         Parameter::strength("drift_before_rad", "rad", 0.0, (-1.0, 1.0), 0.01).of_recording(),
         Parameter::shape("time_constant_s", "s", 30.0, (2.0, 2000.0), &[10.0, 60.0, 600.0]),
+        Parameter::choice("accelerates", "1", &[0.0, 1.0]),
     ],
     place: Place::Clock,
     chance: Chance::None,
@@ -21,5 +23,5 @@ pub static EFFECT: Effect = Effect {
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     // A later phase of the light is an earlier angle.
-    exposure.angle_rad -= values[1] + values[0] * (1.0 - libm::exp(-exposure.moment.time_s / values[2]));
+    exposure.angle_rad -= values[1] + values[0] * settled(exposure.moment.time_s, values[2], values[3]);
 }

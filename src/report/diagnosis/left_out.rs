@@ -18,7 +18,10 @@ pub fn sentences(left_out: &LeftOut) -> Vec<String> {
     }
     if !pixels.is_empty() {
         let of = told(pixels, |(row, column)| format!("row {row} column {column}"));
-        sentences.push(format!("{} far noisier than the others: {of}", counted(pixels.len(), "pixel")));
+        sentences.push(format!(
+            "{} far noisier, or far quieter, than the others: {of}",
+            counted(pixels.len(), "pixel")
+        ));
     }
     sentences
 }

@@ -1,0 +1,73 @@
+//! A lamp's flicker that frames see go through few cycles, beside light that drifts: what the form of the drift leaves looks like it.
+
+use super::data::Data;
+use super::finished::finished;
+use super::fit::{Fit, fit};
+use super::found::Named;
+use super::lamps::FLICKER;
+use super::noise::Noise;
+
+/// Light that drifts.
+const DRIFTS: [&str; 2] = ["ambient_drift", "illumination_drift"];
+
+/// Takes the flicker out of `current`, and of what is `named`, where a drift of light is named beside it and the frames see less of it than a drift has: it is
+/// possible beside that then, and no name of its own.
+pub fn drop_resting(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<Named>) {
+    let Some(flicker) = named.iter().position(|named| named.name == FLICKER) else { return };
+    let is_drift = |named: &Named| DRIFTS.contains(&named.name);
+    let mut pieces = current.pieces.iter().filter(|piece| piece.effect.name == FLICKER);
+    if !named.iter().any(is_drift) || !pieces.all(|piece| current.series.sees_at_rest(piece.values[2])) {
+        return;
+    }
+    named.remove(flicker);
+    for drift in named.iter_mut().filter(|named| is_drift(named)) {
+        if !drift.rivals.iter().any(|rival| rival == FLICKER) {
+            drift.rivals.push(FLICKER.to_owned());
+        }
+    }
+    let others = current.pieces_without(FLICKER);
+    *current = finished(data, fit(data, Some(current), others, noise, &|_| true), noise);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::{injection, taken};
+    use crate::diagnose::finished::unfitted;
+    use crate::diagnose::pieces::Piece;
+    use crate::diagnose::stated_noise;
+    use crate::frames::Geometry;
+
+    /// What is named of a drift and a flicker of this frequency, and what is possible beside the first.
+    fn named_beside_drift(drift: &'static str, frequency_hz: f64) -> (Vec<&'static str>, Vec<String>, usize) {
+        let size = Geometry { width: 8, height: 6 };
+        let effect = injection("ambient_drift:relative_a_second=0.002").unwrap();
+        let recordings = taken(size, 2, &[effect], &["four-rail", "wdft-motion"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let noise = stated_noise(&data);
+        let baseline = unfitted(&data, noise);
+        let mut flicker = Piece::off(FLICKER, &[0, 1], &[0, 1]);
+        flicker.values[2] = frequency_hz;
+        let pieces = vec![Piece::off(drift, &[0], &[0, 1]), flicker];
+        let mut current = fit(&data, Some(&baseline), pieces, noise, &|_| true);
+        // Where its frequency went is no question here.
+        current.pieces[1].values[2] = frequency_hz;
+        let name =
+            |name| Named { name, ln_bayes: 50.0, score: (100.0, 2), rivals: Vec::new(), is_trusted: false };
+        let mut named = vec![name(drift), name(FLICKER)];
+        drop_resting(&data, noise, &mut current, &mut named);
+        (named.iter().map(|named| named.name).collect(), named[0].rivals.clone(), current.pieces.len())
+    }
+
+    /// Frames 25 ms apart see 119.97 Hz go through a cycle in half a minute, and 101 Hz move.
+    #[test]
+    fn a_flicker_that_hardly_moves_is_no_name_beside_a_drift() {
+        let possible = vec![FLICKER.to_owned()];
+        for drift in DRIFTS {
+            assert_eq!(named_beside_drift(drift, 119.97), (vec![drift], possible.clone(), 1));
+            assert_eq!(named_beside_drift(drift, 101.0), (vec![drift, FLICKER], Vec::new(), 2));
+        }
+        let other = "phase_drift";
+        assert_eq!(named_beside_drift(other, 119.97), (vec![other, FLICKER], Vec::new(), 2));
+    }
+}
