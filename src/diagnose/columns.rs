@@ -1,6 +1,7 @@
 //! Tangents of the forward model: what each fitted number changes in every sample, by the model itself.
 
 use super::acting::Acting;
+use super::arrived::Arrived;
 use super::data::Data;
 use super::patterns::{Patterns, difference};
 use super::pieces::{Piece, active};
@@ -89,6 +90,9 @@ const STEP: f64 = 1e-3;
 /// The same for shapes, which may be less than is usual: a frequency may be multiplied by a long time.
 const SHAPE_STEP: f64 = 1e-6;
 const POSITION_STEP_M: f64 = 1e-6;
+/// The number of the base among chains that look back, and of the first that is a column's: before it are those of the pixels' own numbers.
+const BASE: usize = 0;
+const OF_COLUMNS: usize = BASE + 1 + 2 * OWN;
 /// Steps of a pixel's own numbers, in their units.
 const OWN_STEPS: [f64; OWN] = [0.1, 1e-4, 0.1, 0.1];
 
@@ -218,15 +222,16 @@ impl<'a> Tangents<'a> {
         Some((charge.signal_dn.clone(), difference(&more.signal_dn, end, 1.0)))
     }
 
-    /// Frame number `index` of recording `take`.
-    pub fn frame(&self, take: usize, index: usize) -> Frame {
+    /// Frame number `index` of recording `take`; `arrived` is what light brought in frames that were made before it.
+    pub fn frame(&self, take: usize, index: usize, arrived: &mut Arrived) -> Frame {
         let moments = &self.data.takes[take].moments;
         let moment = moments[index];
         let chains = &self.chains[take];
         let before = Moment::before(index, |index| moments[index]);
         let looks_back = chains.looks_back || chains.base.looks_back();
-        let remembered = looks_back.then(|| chains.base.remember(before, &[]));
-        let mut start = chains.base.begin(moment, Memory { before: remembered, ..Memory::default() });
+        arrived.turn_to(take, index, moment);
+        let remembered = looks_back.then(|| arrived.before(BASE, &chains.base, before));
+        let mut start = chains.base.begin(moment, Memory { before: remembered.clone(), ..Memory::default() });
         let mut stations = chains.base.stations(&start);
         let end = &stations[Place::Readout as usize];
         let base = end.signal_dn.clone();
@@ -235,14 +240,23 @@ impl<'a> Tangents<'a> {
         for exposure in stations.iter_mut().chain([&mut start]) {
             (exposure.waveform, exposure.paths) = (memory.waveform.clone(), memory.paths.clone());
         }
-        let expose = |chain: &Chain, moment| expose(chain, moment, before, memory.clone()).signal_dn;
+        if looks_back {
+            arrived.keep(BASE, stations[Place::Charge as usize].arrived_dn.clone());
+        }
         let ambient = chains.base.pixels.ambient_dn.clone();
         let moved = Moment { position_m: moment.position_m + POSITION_STEP_M, ..moment };
-        let position = difference(&expose(&chains.base, moved), &base, POSITION_STEP_M);
-        let of_chain = |chain: &Chain, step: f64, place: Place| {
-            // What was in the frame before depends on these numbers, too.
+        let at_moved = chains.base.expose(moved, Memory { before: remembered, ..memory.clone() });
+        let position = difference(&at_moved.signal_dn, &base, POSITION_STEP_M);
+        // What was in the frame before depends on a changed number, too.
+        let mut looking_back = |number: usize, chain: &Chain| {
+            let remembered = Some(arrived.before(number, chain, before));
+            let exposure = chain.expose(moment, Memory { before: remembered, ..memory.clone() });
+            arrived.keep(number, exposure.arrived_dn);
+            exposure.signal_dn
+        };
+        let mut of_chain = |number: usize, chain: &Chain, step: f64, place: Place| {
             if chain.looks_back() {
-                return difference(&expose(chain, moment), &base, step);
+                return difference(&looking_back(number, chain), &base, step);
             }
             let mut exposure = stations[place as usize].clone();
             exposure.pixels = Arc::clone(&chain.pixels);
@@ -250,9 +264,10 @@ impl<'a> Tangents<'a> {
             difference(&exposure.signal_dn, &base, step)
         };
         let geometry = chains.base.pixels.geometry;
-        let of_own = |own: &Own| {
-            let of = |chain: &Chain| of_chain(chain, own.step, own.place);
-            let mut changes: Vec<Vec<f64>> = own.chains.iter().map(of).collect();
+        let mut of_own = |number: usize, own: &Own| {
+            let numbered = own.chains.iter().enumerate();
+            let of = |(n, chain)| of_chain(BASE + 1 + 2 * number + n, chain, own.step, own.place);
+            let mut changes: Vec<Vec<f64>> = numbered.map(of).collect();
             if let [black, white] = &mut changes[..] {
                 let whites = black.iter_mut().zip(&*white).enumerate();
                 whites
@@ -261,13 +276,13 @@ impl<'a> Tangents<'a> {
             }
             changes.swap_remove(0)
         };
-        let own = chains.own.each_ref().map(of_own);
+        let own = std::array::from_fn(|number| of_own(number, &chains.own[number]));
         let mut patterns = Patterns::new(&chains.base, &base, start, stations);
         for (number, change) in chains.columns.iter().enumerate() {
             match change {
-                // What was in the frame before may depend on this number, too.
                 Some(Change::Chain { chain, step, .. }) if chain.looks_back() => {
-                    patterns.acting.column(number, difference(&expose(chain, moment), &base, *step));
+                    let changed = looking_back(OF_COLUMNS + number, chain);
+                    patterns.acting.column(number, difference(&changed, &base, *step));
                 }
                 Some(Change::Chain { chain, step, place }) => patterns.other(number, chain, *step, *place),
                 Some(Change::More { effect, step, is_finite }) => {
@@ -332,7 +347,7 @@ mod tests {
         let pieces = [mixed];
         let of = |pixels: &Arc<Pixels>| Tangents::new(&data, pixels, &pieces, &[]).0;
         let (index, tangents) = (2, of(&pixels));
-        let frame = tangents.frame(0, index);
+        let frame = tangents.frame(0, index, &mut Arrived::default());
         let mut looked_at = [0; 2];
         for &(pixel, beyond) in &pixels.edges {
             looked_at[usize::from(data.target[pixel])] += 1;
@@ -363,7 +378,7 @@ mod tests {
             Tangents::new(&data, &Arc::new(pixels), &[], &[]).0
         };
         let (tangents, index) = (of(0.3), 2);
-        let frame = tangents.frame(0, index);
+        let frame = tangents.frame(0, index, &mut Arrived::default());
         let (number, common) = tangents.of_common(0, index, &frame).unwrap();
         assert_eq!((number, tangents.common()), (0, 1));
         let moved = difference(&of(0.3 + STEP_RAD).base(0, index), &frame.base, STEP_RAD);

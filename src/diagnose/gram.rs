@@ -1,6 +1,7 @@
 //! One pass over the data: the normal equations of all columns, with the pixels' own numbers projected out.
 
 use super::acting::Acting;
+use super::arrived::Arrived;
 use super::block::{Block, Rows};
 use super::columns::{Frame, OWN, Tangents};
 use super::common_phase::CommonPhase;
@@ -168,8 +169,8 @@ impl Gram {
                 for (block, columns) in sums.blocks.iter_mut().zip(&columns) {
                     block.errors[number] = DMatrix::zeros(errors, columns + 1);
                 }
-                let made = |index: usize| -> Made {
-                    let frame = tangents.frame(take, index);
+                let made = |index: usize, arrived: &mut Arrived| -> Made {
+                    let frame = tangents.frame(take, index, arrived);
                     let whitened = whiten(data, take, index, &frame.base, noise);
                     let mut filled = fill(take, index, &frame);
                     if let Some((number, values)) = tangents.of_common(take, index, &frame) {
@@ -193,11 +194,12 @@ impl Gram {
                 let indices = set * frames..(set + 1) * frames;
                 if is_few {
                     for some in indices.collect::<Vec<_>>().chunks(FRAMES) {
-                        let made: Vec<_> = some.par_iter().map(|&index| made(index)).collect();
-                        made.into_iter().for_each(&mut add);
+                        let alone = |&index: &usize| made(index, &mut Arrived::default());
+                        some.par_iter().map(alone).collect::<Vec<_>>().into_iter().for_each(&mut add);
                     }
                 } else {
-                    indices.map(made).for_each(add);
+                    let mut arrived = Arrived::default();
+                    indices.map(|index| made(index, &mut arrived)).for_each(add);
                 }
             }
             sums.blocks.iter_mut().for_each(Block::settle);

@@ -6,6 +6,7 @@ mod alias;
 mod alone;
 mod amplitudes;
 mod answer;
+mod arrived;
 mod backgrounds;
 mod beats;
 mod block;

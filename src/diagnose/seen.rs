@@ -1,5 +1,6 @@
 //! What a set shows to a model that has not seen it.
 
+use super::arrived::Arrived;
 use super::columns::Tangents;
 use super::data::{Data, Take};
 use super::held_out::Predictor;
@@ -103,7 +104,7 @@ pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set:
                 + squares;
         }
         if by.has_jitters() {
-            let frame = tangents.frame(number, index);
+            let frame = tangents.frame(number, index, &mut Arrived::default());
             let moment = &take.moments[index];
             seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, (number, 0), moment));
         }
