@@ -504,7 +504,7 @@ fn study(nulls: &str, unknowns: &str) -> String {
 #[test]
 fn a_short_study_raises_no_alarm() {
     let text = study("3", "0");
-    assert!(text.contains("**Clean campaigns**: 0 alarms in 3 ("), "{text}");
+    assert!(text.contains("**Clean campaigns** of the usual six recordings: 0 alarms in 3 ("), "{text}");
 }
 
 /// Strong effects that nothing in the registry makes get no name.

@@ -1,23 +1,46 @@
 //! Dark recordings in which nothing comes in at all: no recording says whether the camera's light was off, or the room's too (or the lens was covered).
 
-use super::data::Data;
+use super::data::{Data, Take};
 use super::finished::unfitted;
 use super::fit::Fit;
 use super::noise::Noise;
 
 /// No light at all explains such recordings better than ambient light alone by this chi squared, at least: ten nats.
 const CLEARLY: f64 = 20.0;
+/// Of the ambient light that others see, what is less than this share in a recording is none.
+const NONE: f64 = 0.1;
 
-/// `data` with no ambient light in its dark recordings, and the fit to that, where this says clearly more than the `baseline`, which has it there.
+/// `data` with no ambient light in those of its dark recordings that see none, and the fit to that, where this says clearly more than the `baseline`, which has it there.
 pub fn covered(data: &Data, baseline: &Fit, noise: Noise) -> Option<(Data, Fit)> {
-    let mut covered = data.clone();
-    let dark = covered.takes.iter_mut().filter(|take| take.moments.iter().all(|moment| !moment.lit));
-    let dark = dark.map(|take| take.moments.iter_mut().for_each(|moment| moment.transmission = 0.0)).count();
-    if dark == 0 || dark == data.takes.len() {
+    let is_dark = |take: &Take| take.moments.iter().all(|moment| !moment.lit);
+    if !data.takes.iter().any(is_dark) || data.takes.iter().all(is_dark) {
         return None;
     }
-    let fitted = unfitted(&covered, noise);
+    let without = |is_covered: &dyn Fn(&Take) -> bool| {
+        let mut takes = data.takes.clone();
+        for take in takes.iter_mut().filter(|take| is_dark(take) && is_covered(take)) {
+            take.moments.iter_mut().for_each(|moment| moment.transmission = 0.0);
+        }
+        let covered = data.with_takes(takes);
+        let fitted = unfitted(&covered, noise);
+        (covered, fitted)
+    };
+    // What ambient light there is the others say.
+    let (_, by_others) = without(&|_| true);
+    let ambient = &by_others.pixels.ambient_dn;
+    let ambient_dn = ambient.iter().sum::<f64>() / ambient.len() as f64;
+    let sees_none = |take: &Take| mean_dn(take) < NONE * ambient_dn;
+    if !data.takes.iter().any(|take| is_dark(take) && sees_none(take)) {
+        return None;
+    }
+    let (covered, fitted) = without(&sees_none);
     (fitted.left() + CLEARLY < baseline.left()).then_some((covered, fitted))
+}
+
+/// What a recording sees on average, DN.
+fn mean_dn(take: &Take) -> f64 {
+    let seen = || take.signal_dn.iter().filter(|signal| signal.is_finite());
+    seen().map(|&signal| f64::from(signal)).sum::<f64>() / seen().count().max(1) as f64
 }
 
 /// The names of recordings in which nothing comes in.
@@ -34,24 +57,56 @@ mod tests {
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
 
-    /// A dark recording of a camera that sees ambient light, or, with the lens covered, its read noise alone.
-    #[test]
-    fn what_sees_nothing_is_covered() {
-        let names = ["four-rail", "four-dark"];
+    /// The recordings in which no light is found, of a rail or a sweep and two dark ones, of which the ambient light has these shares; and whether a pixel's
+    /// constant light is told from ambient light then.
+    fn covered_of(bright: &str, shares: [f32; 2]) -> (Vec<String>, bool) {
+        let names = [bright, "four-dark", "wdft-dark"];
         let recordings = taken(Geometry { width: 8, height: 6 }, 3, &[], &names).unwrap();
         let mut data = Data::of(&recordings, Vec::new()).unwrap();
+        for (name, share) in names[1..].iter().zip(shares) {
+            let take = data.takes.iter_mut().find(|take| take.name == *name).unwrap();
+            let less_dn = (1.0 - share) * mean_dn(take) as f32;
+            take.signal_dn.iter_mut().for_each(|signal| *signal -= less_dn);
+        }
         let noise = stated_noise(&data);
-        let is_covered = |data: &Data| covered(data, &unfitted(data, noise), noise).map(|(data, _)| data);
-        assert!(is_covered(&data).is_none() && without_light(&data).is_empty());
-        let dark = data.takes.iter().position(|take| take.name == names[1]).unwrap();
-        // Its noise is that of the light that it saw.
-        let signals = &mut data.takes[dark].signal_dn;
-        let mean = signals.iter().sum::<f32>() / signals.len() as f32;
-        signals.iter_mut().for_each(|signal| *signal = 0.2 * (*signal - mean));
-        let found = is_covered(&data).unwrap();
-        assert_eq!(without_light(&found), [names[1]]);
-        // Alone it says nothing of that.
-        data.takes.retain(|take| take.name == names[1]);
-        assert!(is_covered(&data).is_none());
+        let found = covered(&data, &unfitted(&data, noise), noise).map(|(data, _)| data);
+        let found = found.as_ref().unwrap_or(&data);
+        (without_light(found).into_iter().map(str::to_owned).collect(), found.tells_constant(0))
+    }
+
+    #[test]
+    fn what_sees_nothing_is_covered() {
+        let names = |of: &[&str]| of.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
+        let both = names(&["four-dark", "wdft-dark"]);
+        assert_eq!(covered_of("four-rail", [1.0, 1.0]), (Vec::new(), true));
+        assert_eq!(covered_of("four-rail", [0.0, 0.0]).0, both);
+        // Of two one may be.
+        assert_eq!(covered_of("four-rail", [0.0, 1.0]), (names(&["four-dark"]), true));
+        // A room that is dimmer than before is not without light.
+        assert_eq!(covered_of("four-rail", [0.3, 0.3]), (Vec::new(), true));
+    }
+
+    /// Where nothing moves, frames without any light do not tell ambient light from the constant part of the camera's own.
+    #[test]
+    fn frames_without_light_say_nothing_of_ambient_light() {
+        let data = |transmission: f64| {
+            let recordings =
+                taken(Geometry { width: 8, height: 6 }, 3, &[], &["four-sweep", "four-dark"]).unwrap();
+            let data = Data::of(&recordings, Vec::new()).unwrap();
+            let mut takes = data.takes.clone();
+            let dark = takes.iter_mut().flat_map(|take| &mut take.moments).filter(|moment| !moment.lit);
+            dark.for_each(|moment| moment.transmission = transmission);
+            data.with_takes(takes)
+        };
+        assert!(data(1.0).tells_constant(0) && !data(0.0).tells_constant(0));
+    }
+
+    /// A dark recording alone says nothing of what others would see.
+    #[test]
+    fn a_dark_recording_alone_is_not_covered() {
+        let recordings = taken(Geometry { width: 8, height: 6 }, 3, &[], &["four-dark"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let noise = stated_noise(&data);
+        assert!(covered(&data, &unfitted(&data, noise), noise).is_none());
     }
 }

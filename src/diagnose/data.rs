@@ -79,7 +79,7 @@ const SAME_PHASE_RAD: f64 = 1e-6;
 /// What recordings show of the camera's light.
 #[derive(Debug, Clone, Copy)]
 struct SeenLight {
-    /// In some frames there is none.
+    /// In some frames there is ambient light alone.
     is_once_off: bool,
     /// It comes from different distances, beyond what readings of one scatter by.
     moves: bool,
@@ -90,7 +90,8 @@ impl SeenLight {
         let moments = || takes.iter().flat_map(|take| &take.moments);
         let places_m = || moments().filter(|moment| moment.lit).map(Moment::commanded_m);
         let [least_m, most_m] = [places_m().fold(f64::INFINITY, f64::min), places_m().fold(0.0, f64::max)];
-        Self { is_once_off: moments().any(|moment| !moment.lit), moves: most_m > (1.0 + ONE_PLACE) * least_m }
+        let is_once_off = moments().any(|moment| !moment.lit && moment.transmission > 0.0);
+        Self { is_once_off, moves: most_m > (1.0 + ONE_PLACE) * least_m }
     }
 }
 

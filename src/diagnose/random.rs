@@ -26,6 +26,8 @@ const ORDERED_MOST: f64 = 0.5;
 const FEW_FRAMES: f64 = 20.0;
 /// Of what the forms of named effects may leave, so much may look as if it were random.
 const AT_RANDOM: f64 = 0.05;
+/// Frames that are off with so much of the evidence for noise of rows or columns, at least, are looked at themselves: a weak effect of theirs is found beside it.
+const OF_FRAMES: f64 = 0.5;
 /// Errors that are none of what noise lets appear have so many times the evidence that it may have.
 const MORE_THAN_SHADOW: f64 = 2.0;
 /// Frames' errors may have so many times the noise's variance for each set. (Of an error's information the pixels' own numbers take a part of one over the
@@ -77,24 +79,45 @@ fn effect_of(cluster: &Cluster) -> Option<&'static str> {
 }
 
 /// Noise beyond what was stated, of pixels, or offsets of rows, columns or frames that are white: a camera has it, and no physics is left
-/// out.
+/// out. Rows and columns are white beside their frames, which must not be off about as clearly by what goes on, or repeats, themselves.
 pub fn noise<'a>(data: &Data, location: &'a Location) -> Option<&'a Cluster> {
-    let strongest = *unusual(data, location).first()?;
-    let is_white = strongest.correlation.is_some_and(|correlation| correlation < WHITE);
+    let all = unusual(data, location);
+    let strongest = *all.first()?;
+    let is_not = |cluster: &Cluster| cluster.correlation.is_none_or(|correlation| correlation >= WHITE);
+    let is_of_frames = |cluster: &&&Cluster| {
+        let is_offset = cluster.level == Level::Frame && MODES[cluster.mode] == "offset";
+        is_offset && cluster.ln_bayes > OF_FRAMES * strongest.ln_bayes
+    };
+    let is_white = !is_not(strongest) && !all.iter().find(is_of_frames).is_some_and(|frames| is_not(frames));
     (strongest.level == Level::Pixel || is_white).then_some(strongest)
 }
 
-/// Random errors that are no noise; best first. Beside noise those alone are known that an effect makes, and that are more than a shadow of it.
+/// Random errors that are no noise; best first. Beside noise those alone are known that an effect makes, that are more than a shadow of it, and that frames or sets show more clearly than
+/// any others.
 pub fn errors<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
     let all = unusual(data, location);
     let Some(noise) = noise(data, location) else { return all };
     let least = CLUSTER_NATS + MORE_THAN_SHADOW * shadow(noise.inflation, location.jitters.frames().len());
-    all.into_iter().filter(|errors| effect_of(errors).is_some() && errors.ln_bayes > least).collect()
+    let leads = |errors: &Cluster| {
+        all.iter().all(|other| other.level != errors.level || other.ln_bayes <= errors.ln_bayes)
+    };
+    let is_more =
+        |errors: &&&Cluster| effect_of(errors).is_some() && errors.ln_bayes > least && leads(errors);
+    all.iter().filter(is_more).copied().collect()
 }
 
-/// Evidence (nats) of errors of so many frames that there seem to be where noise raises the variance of what frames say by `inflation`, at most: of each the likelihood's mean.
+/// Evidence (nats) of errors of so many frames that there seem to be where noise raises the variance of what frames say by `inflation`, in all alike: of each the likelihood's mean.
 fn shadow(inflation: f64, frames: usize) -> f64 {
     0.5 * frames as f64 * (inflation - 1.0 - inflation.ln()).max(0.0)
+}
+
+/// By how much the standard deviation of errors of a `kind` of [`JITTERS`], which seems to be `sigma`, may be too great where noise raises the variance of what frames say by `inflation`.
+fn of_shadow(location: &Location, kind: usize, sigma: f64, inflation: f64) -> f64 {
+    let information = || location.jitters.frames().iter().map(|frame| SAID[kind](frame).1);
+    let (sum, squares) = information().fold((0.0, 0.0), |(sum, squares), k| (sum + k, squares + k * k));
+    let variance = sigma * sigma;
+    let less = if squares > 0.0 { (inflation - 1.0).max(0.0) * sum / squares } else { 0.0 };
+    sigma - (variance - less).max(0.0).sqrt()
 }
 
 /// By how much random errors, noise among them, raise the variance of what columns say; 1 where there are none.
@@ -219,7 +242,10 @@ pub fn random_effect(data: &Data, location: &Location) -> Option<RandomEffect> {
     if !is_new_in_each(location, kind, sigma) {
         return None;
     }
-    Some(RandomEffect { name, strength: Strength { value: sigma, sigma: known_to }, ln_bayes, inflation })
+    let beside = noise(data, location).map_or(0.0, |noise| of_shadow(location, kind, sigma, noise.inflation));
+    // Noise adds something between nothing and that.
+    let strength = Strength { value: sigma - 0.5 * beside, sigma: known_to.hypot(0.5 * beside) };
+    Some(RandomEffect { name, strength, ln_bayes, inflation })
 }
 
 /// What frames are off by, phase (rad) and time (s), where the strongest errors of a `location` are those of a jitter of the registry, and not so strong

@@ -41,7 +41,7 @@ pub use powers::ln;
 pub use pulse::Pulse;
 pub use scene::{Object, Scene, Surface};
 pub use sensor::{Light, Sensor};
-pub use settled::settled;
+pub use settled::{accelerated_s, settled};
 pub use shape::{Hit, Shape, Vector};
 pub use stage::Stage;
 pub use trig::cos_sin;

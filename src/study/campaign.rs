@@ -50,7 +50,7 @@ pub static OTHERS: [Campaign; 3] = [
         ..USUAL
     },
     Campaign {
-        what: "of a target at one place",
+        what: "of a target at one place (two sweeps)",
         shows: &["response_decay"],
         recordings: &["four-sweep", "wdft-sweep"],
         ..USUAL

@@ -4,7 +4,7 @@ use super::campaign::Campaign;
 use super::summary::Kind;
 use crate::diagnose::{Data, diagnose};
 use crate::frames::Geometry;
-use crate::physics::{Active, Effect, effects};
+use crate::physics::{Active, Effect};
 use crate::problem::Result;
 
 /// An effect in a campaign.
@@ -59,9 +59,6 @@ pub struct Outcome {
     pub errors_sigma: Vec<(&'static str, f64)>,
 }
 
-/// Codes are cut by whole bits, which need no statistics.
-const A_BIT: f64 = 1.0;
-
 impl Case {
     /// A campaign without any effect.
     pub fn clean(campaign: &'static Campaign, seed: u64) -> Self {
@@ -96,7 +93,7 @@ impl Case {
         }
         // What is random is not asked of columns.
         let others = diagnosis.answer.smallest_detectable.iter().map(|row| (row.name, row.value));
-        for (name, value) in others.chain([(effects::FIXED_POINT, A_BIT)]) {
+        for (name, value) in others {
             if !units.iter().any(|unit| unit.0 == name) {
                 units.push((name, 0, Unit::Smallest(value)));
             }

@@ -1,6 +1,6 @@
 //! Ambient light that drifts.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, settled};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, accelerated_s, settled};
 
 /// Relative change of the ambient light, a second, when the recording begins; by how much it had changed before; and the time in which it settles,
 /// as lamps do that warm up: 10 000 s is as good as never. Or light that accelerates, as at dawn: the time in which it becomes twice as fast.
@@ -22,7 +22,11 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let passed_s = settled(exposure.moment.time_s, values[2], values[3]) * values[2];
+    let (time_s, tau_s) = (exposure.moment.time_s, values[2]);
+    let passed_s = match values[3] {
+        0.0 => settled(time_s, tau_s, 0.0) * tau_s,
+        _ => accelerated_s(time_s, tau_s),
+    };
     let factor = 1.0 + values[1] + values[0] * passed_s;
     exposure.ambient_dn.iter_mut().for_each(|ambient| *ambient *= factor);
 }
