@@ -83,7 +83,7 @@ mod tests {
         // Of two one may be.
         assert_eq!(covered_of("four-rail", [0.0, 1.0]), (names(&["four-dark"]), true));
         // A room that is dimmer than before is not without light.
-        assert_eq!(covered_of("four-rail", [0.3, 0.3]), (Vec::new(), true));
+        assert_eq!(covered_of("four-rail", [0.15, 0.15]), (Vec::new(), true));
     }
 
     /// Where nothing moves, frames without any light do not tell ambient light from the constant part of the camera's own.
