@@ -20,6 +20,15 @@ pub struct Named {
     pub is_trusted: bool,
 }
 
+impl Named {
+    /// Says that `other` is possible too.
+    pub fn may_be(&mut self, other: &str) {
+        if !self.rivals.iter().any(|rival| rival == other) {
+            self.rivals.push(other.to_owned());
+        }
+    }
+}
+
 /// What the search found.
 #[derive(Debug)]
 pub struct Found {

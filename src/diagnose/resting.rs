@@ -20,11 +20,7 @@ pub fn drop_resting(data: &Data, noise: Noise, current: &mut Fit, named: &mut Ve
         return;
     }
     named.remove(flicker);
-    for drift in named.iter_mut().filter(|named| is_drift(named)) {
-        if !drift.rivals.iter().any(|rival| rival == FLICKER) {
-            drift.rivals.push(FLICKER.to_owned());
-        }
-    }
+    named.iter_mut().filter(|named| is_drift(named)).for_each(|drift| drift.may_be(FLICKER));
     let others = current.pieces_without(FLICKER);
     *current = finished(data, fit(data, Some(current), others, noise, &|_| true), noise);
 }

@@ -122,11 +122,7 @@ impl<'a> Search<'a> {
         // However a drift was named, and if a flicker is not named beside it.
         let is_named = named.iter().any(|named| named.name == FLICKER);
         if !is_named && Alone::of(&alone, FLICKER).is_some() && baseline.series.flicker_rests() {
-            for drift in named.iter_mut().filter(|named| named.name == DRIFT) {
-                if !drift.rivals.iter().any(|rival| rival == FLICKER) {
-                    drift.rivals.push(FLICKER.to_owned());
-                }
-            }
+            named.iter_mut().filter(|named| named.name == DRIFT).for_each(|drift| drift.may_be(FLICKER));
         }
         Found { baseline, fit: current, named, invisible, detectable, alone, simpler }
     }

@@ -88,6 +88,7 @@ pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set:
     let (noise, take) = (by.noise, &data.takes[number]);
     let mut seen = Seen { take: number, of_blocks: vec![0.0; BLOCKS], ..Seen::default() };
     let mut phasors = vec![(Complex64::default(), Complex64::default()); data.pixels()];
+    let mut arrived = Arrived::default();
     for frame in 0..take.frames {
         let index = set * take.frames + frame;
         let base = tangents.base(number, index);
@@ -104,7 +105,7 @@ pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set:
                 + squares;
         }
         if by.has_jitters() {
-            let frame = tangents.frame(number, index, &mut Arrived::default());
+            let frame = tangents.frame(number, index, &mut arrived);
             let moment = &take.moments[index];
             seen.jitters.push(jitters::Frame::seen(&frame, &roots, &residuals, (number, 0), moment));
         }

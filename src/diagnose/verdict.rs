@@ -40,6 +40,8 @@ pub struct Diagnosis {
     pub held_out: HeldOut,
     /// What the camera states or includes of noise and errors at random that is not there, in words.
     pub overstated: Vec<String>,
+    /// The names of dark recordings in which there is no ambient light either.
+    pub without_light: Vec<String>,
     /// What was left out before anything was looked for.
     pub left_out: LeftOut,
     /// The answer.
@@ -79,10 +81,12 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     // A scene that stands still has no mask.
     let masked = if data.assumed.still_scene { None } else { with_mask(data, noise) };
     let (data, moved) = masked.as_ref().map_or((data, 0), |(data, moved)| (data, *moved));
-    let mut baseline = unfitted(data, noise);
-    let covered = covered(data, &baseline, noise);
-    let data = covered.as_ref().map_or(data, |(data, _)| data);
-    baseline = covered.as_ref().map_or(baseline, |(_, fit)| fit.clone());
+    let baseline = unfitted(data, noise);
+    let (covered, mut baseline) = match covered(data, &baseline, noise) {
+        Some((covered, fitted)) => (Some(covered), fitted),
+        None => (None, baseline),
+    };
+    let data = covered.as_ref().unwrap_or(data);
     let below = below_full(data, &baseline, noise);
     if let Some(below) = &below {
         baseline = unfitted(below, noise);
@@ -123,9 +127,10 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     answer.provenance["overstated"] = json!(overstated);
     answer.provenance["background_counts_at_hz"] = json!(counts_at_hz(&data.takes));
-    answer.provenance["recordings_without_any_light"] = json!(without_light(data));
+    let without_light = without_light(data);
+    answer.provenance["recordings_without_any_light"] = json!(without_light);
     answer.provenance["own_phases"] = json!(judgement.fit.pixels.at_frequencies);
-    Diagnosis { judgement, held_out, overstated, left_out, answer, geometry: data.geometry() }
+    Diagnosis { judgement, held_out, overstated, without_light, left_out, answer, geometry: data.geometry() }
 }
 
 /// Sets that were not seen are explained where they have no more chi squared a sample: noise alone has 1.

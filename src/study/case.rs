@@ -44,6 +44,15 @@ pub enum Unit {
     Smallest(f64),
 }
 
+impl Unit {
+    /// One of it, in the unit of the number.
+    pub fn one(self) -> f64 {
+        match self {
+            Self::Sigma(one) | Self::Smallest(one) => one,
+        }
+    }
+}
+
 /// What a diagnosis made of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {

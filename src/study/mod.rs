@@ -74,34 +74,32 @@ impl Study {
             let shown = Case::clean(campaign, self.seed).detectable(self.size, library)?;
             units.extend(shown.into_iter().filter(|(name, ..)| Campaign::of(name) == campaign));
         }
+        let unit_of = |effect: &Effect| units.iter().find(|unit| unit.0 == effect.name).map(|unit| unit.2);
         // What the campaign shows only beyond an effect's bounds is not tried.
         let concealed = |effect: &'static Effect, strength: f64| {
             let &(_, number, unit) = units.iter().find(|unit| unit.0 == effect.name)?;
-            let (kind, one) = match unit {
-                Unit::Sigma(sigma) => (Kind::Single, sigma),
-                Unit::Smallest(value) => (Kind::Multiple, value),
-            };
-            Some((kind, Concealed { effect, number, values: at(effect, number, strength * one)? }))
+            Some(Concealed { effect, number, values: at(effect, number, strength * unit.one())? })
         };
         for &effect in EFFECTS {
-            for (of, strengths) in [(Kind::Single, STRENGTHS), (Kind::Multiple, MULTIPLES)] {
-                for strength in strengths {
-                    let Some((kind, alone)) = concealed(effect, strength) else { continue };
-                    let repeats = if kind == of { self.repeats } else { 0 };
-                    for _ in 0..repeats {
-                        let effects = vec![alone.clone()];
-                        let campaign = Campaign::of(effect.name);
-                        cases.push(Case { effects, lives: &[], kind, strength, campaign, seed: next() });
-                    }
+            let (kind, strengths) = match unit_of(effect) {
+                Some(Unit::Sigma(_)) => (Kind::Single, STRENGTHS),
+                Some(Unit::Smallest(_)) => (Kind::Multiple, MULTIPLES),
+                None => continue,
+            };
+            for strength in strengths {
+                let Some(alone) = concealed(effect, strength) else { continue };
+                for _ in 0..self.repeats {
+                    let (effects, campaign) = (vec![alone.clone()], Campaign::of(effect.name));
+                    cases.push(Case { effects, lives: &[], kind, strength, campaign, seed: next() });
                 }
             }
         }
         let strength = STRENGTH_OF_PAIRS;
-        let usual = EFFECTS.iter().filter(|effect| Campaign::of(effect.name) == &USUAL);
-        let strong: Vec<Concealed> = usual
-            .filter_map(|effect| concealed(effect, strength))
-            .filter_map(|(kind, concealed)| (kind == Kind::Single).then_some(concealed))
-            .collect();
+        let may_be_of_pair = |effect: &&&'static Effect| {
+            Campaign::of(effect.name) == &USUAL && matches!(unit_of(effect), Some(Unit::Sigma(_)))
+        };
+        let strong: Vec<Concealed> =
+            EFFECTS.iter().filter(may_be_of_pair).filter_map(|effect| concealed(effect, strength)).collect();
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         for _ in 0..self.pairs {
             let effects = strong.sample(&mut rng, 2).cloned().collect();
@@ -110,7 +108,7 @@ impl Study {
         }
         for &(effect, lives) in &outside {
             for strength in STRENGTHS_OF_UNKNOWNS {
-                let Some((_, alone)) = concealed(effect, strength) else { continue };
+                let Some(alone) = concealed(effect, strength) else { continue };
                 for _ in 0..self.unknowns {
                     let (kind, campaign) = (Kind::Unknown, &USUAL);
                     let effects = vec![alone.clone()];

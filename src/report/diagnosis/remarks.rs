@@ -32,8 +32,7 @@ pub fn remarks(diagnosis: &Diagnosis) -> Vec<String> {
         let (hz, rad) = (at.frequency_hz, at.phase_rad);
         format!("At {} MHz the pixels' own phases count {own} {rad:.4} rad besides, for all pixels alike: no recording states that.", hz / 1e6)
     });
-    let without_light = diagnosis.answer.provenance["recordings_without_any_light"].as_array();
-    let without_light = without_light.into_iter().flatten().filter_map(|name| name.as_str()).map(|name| {
+    let without_light = diagnosis.without_light.iter().map(|name| {
         format!("No light at all comes in in {name}, neither the camera's nor ambient light: no recording states that.")
     });
     shared.chain(overstated).chain(own_phases).chain(without_light).chain(left_out).collect()
