@@ -424,7 +424,16 @@ fn a_drift_that_accelerates_is_one_drift() {
         with(sample, 3.0 * share * share)
     });
     assert_eq!(names(&verdict), ["ambient_drift"], "{verdict:#}");
-    assert_eq!(parameter(&verdict, "accelerates").0, 1.0, "{verdict:#}");
+    assert_eq!(parameter(&verdict, "course").0, 1.0, "{verdict:#}");
+}
+
+/// Ambient light that rises anew within every set: no gains of its frames, nor a droop of the camera's own light, and no lamp.
+#[test]
+fn a_drift_within_every_set_is_one_drift() {
+    let verdict = verdict_of("four-motion,wdft-rail", |sample| with(sample, 0.5 * sample.frame as f64));
+    assert_eq!(names(&verdict), ["ambient_drift"], "{verdict:#}");
+    assert_eq!(parameter(&verdict, "course").0, -1.0, "{verdict:#}");
+    assert_eq!(verdict["effects"][0]["also_possible"], json!([]), "{verdict:#}");
 }
 
 /// The same of the camera's own light, and of its phase.
@@ -433,7 +442,7 @@ fn a_drift_that_accelerates_is_one_drift() {
 fn what_fades_or_turns_ever_faster_is_a_drift() {
     for (name, strength) in [("illumination_drift", "relative=0.03"), ("phase_drift", "drift_rad=0.03")] {
         for time_constant_s in [15, 2] {
-            let effect = format!("{name}:{strength},time_constant_s={time_constant_s},accelerates=1");
+            let effect = format!("{name}:{strength},time_constant_s={time_constant_s},course=1");
             assert_eq!(names_of(&effect), [name], "{time_constant_s}");
         }
     }

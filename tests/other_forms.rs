@@ -202,10 +202,11 @@ fn a_wall_may_stand_on_one_side() {
     ["1", "-0.5"].into_iter().for_each(|side| is_found(0.1, "wall_beside", side));
 }
 
-/// Light by way of a wall that is the same share at any distance, or falls with the square of its way, leaves nothing to a second name.
+/// Light by way of a wall that is the same share at any distance, or falls with the square of its way, or a room's, which falls less than the direct light, leaves nothing to a
+/// second name.
 #[test]
 fn a_longer_way_is_one_however_its_light_falls() {
-    ["-1", "-2"].into_iter().for_each(|fall| is_found(0.05, "is_longer_by_a_constant", fall));
+    ["-1", "-2", "0.5"].into_iter().for_each(|fall| is_found(0.05, "is_longer_by_a_constant", fall));
 }
 
 /// Codes without their four low bits are off by what repeats every 16 of them.

@@ -46,7 +46,10 @@ const TRUTHS: &[(&str, &[Row])] = &[
         ],
     ),
     // A minute has 60 s.
-    ("ambient_drift", &[("relative_a_second", "1/s", |flaw, _| Some(signed(flaw) / 60.0))]),
+    (
+        "ambient_drift",
+        &[("relative_a_second", "1/s", |flaw, _| flaws::daylight_a_minute(flaw).map(|change| change / 60.0))],
+    ),
     // cos(a + x) = cos x cos a - sin x sin a, here and below.
     (
         "ambient_flicker",

@@ -198,7 +198,8 @@ impl Clusters {
             let swinging =
                 std::array::from_fn(|mode| if mode == 0 || moment.lit { sums[mode] } else { (0.0, 0.0) });
             let at = [moment.offset_rad, moment.commanded_m()];
-            self.swings.add(Seen { take: whitened.take, time_s: moment.time_s, at, modes: swinging });
+            let (take, number, time_s) = (whitened.take, moment.set, moment.time_s);
+            self.swings.add(Seen { take, number, time_s, at, modes: swinging });
             for (mode, sum) in sums.into_iter().enumerate() {
                 inform(&mut self.information[0][mode], &[sum]);
                 self.few[0][mode].push((whitened.take, sum));

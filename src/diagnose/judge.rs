@@ -142,7 +142,7 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
         named: &named,
         are_dropped,
         at_random: (at_random.len(), random.is_some()),
-        are_outvoted: names.is_some_and(|names| names.are_outvoted(&baseline)),
+        are_outvoted: names.is_some_and(|names| names.are_outvoted(&baseline.columns, &end.columns)),
         is_misnamed: unnamed.is_some(),
         is_far,
         remainder,

@@ -14,6 +14,7 @@ use super::parts::parts;
 use super::profiles::{Profile, Profiles};
 use super::projected::Projected;
 use super::ranges::Ranges;
+use super::swings::{Comes, Swing};
 
 /// Evidence (nats) from which on a coordinate counts as located.
 pub const LOCATED_NATS: f64 = 4.0;
@@ -105,11 +106,10 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let shape = format!("a wave of {:.1} {name}s, {hz:+.3} Hz", wave.lines * every);
         Located::wave(name, shape, wave.found)
     }));
-    columns.extend(clusters.swings().into_iter().map(|swing| match swing.alternates {
-        true => Located::wave("set", format!("{}, every other set", swing.mode), swing.found),
-        false => {
-            Located::wave("time_s", format!("{}, a swing of {:.3} Hz", swing.mode, swing.hz), swing.found)
-        }
+    columns.extend(clusters.swings().into_iter().map(|Swing { mode, comes, found }| match comes {
+        Comes::EverySets(2) => Located::wave("set", format!("{mode}, every other set"), found),
+        Comes::EverySets(sets) => Located::wave("set", format!("{mode}, the same every {sets} sets"), found),
+        Comes::Hz(hz) => Located::wave("time_s", format!("{mode}, a swing of {hz:.3} Hz"), found),
     }));
     let wave_over_codes = codes.strongest();
     let period_dn = wave_over_codes.as_ref().map(|wave| wave.period_dn);

@@ -169,7 +169,7 @@ const UNLIKELY: [(&str, f64); 1] = [("encoder_offset", 10.0)];
 /// Effects that are no continuation of themselves beyond off: what moves to one side brings what lies on the other, and what it does must be looked at by itself.
 const WITH_SIDES: [&str; 1] = ["lateral_motion"];
 /// Choices that are looked at in one shape only: near it, all look alike.
-const IN_ONE_SHAPE: [(&str, f64, f64); 1] = [("accelerates", 1.0, 60.0)];
+const IN_ONE_SHAPE: [(&str, f64, f64); 2] = [("course", 1.0, 60.0), ("course", -1.0, 1e4)];
 /// A strength on the far side of off begins at so much of its usual size.
 const BARELY: f64 = -1e-9;
 

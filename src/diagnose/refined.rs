@@ -13,7 +13,7 @@ use rayon::prelude::*;
 /// Effects, and of one of their choices what is seldom.
 const SELDOM: [(&str, &str, &[f64]); 3] = [
     (OF_CODES, "form", &[1.0, 0.5, -0.5, -1.0]),
-    (OF_WALLS, "is_longer_by_a_constant", &[-2.0]),
+    (OF_WALLS, "is_longer_by_a_constant", &[-2.0, 0.5]),
     (OF_WALLS, "wall_beside", &[1.0, 0.5, -0.5, -1.0]),
 ];
 const OF_WALLS: &str = "multipath_interference";

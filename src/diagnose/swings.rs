@@ -1,5 +1,5 @@
-//! Swings: what whole sets share and comes and goes with a period in time, as a thermostat makes it. Functions of the time are too coarse for more
-//! than a few periods, and errors of single sets say little of them.
+//! Swings: what whole sets share and comes and goes with a period in time, as a thermostat makes it, or with a number of sets, as a buffer of several does. Functions of the
+//! time are too coarse for more than a few periods, and errors of single sets say little of them.
 
 use super::amplitudes::agree;
 use super::clusters::MODES;
@@ -16,6 +16,8 @@ pub const SWINGING: usize = 3;
 pub struct Seen {
     /// Its recording.
     pub take: usize,
+    /// Its number in that.
+    pub number: usize,
     /// When it was taken, s.
     pub time_s: f64,
     /// Phase offset (rad) and commanded position (m).
@@ -30,6 +32,18 @@ pub struct Swings {
     sets: Vec<Seen>,
 }
 
+/// When swings come again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Comes {
+    /// With a frequency, Hz.
+    Hz(f64),
+    /// With every so many sets, whenever those are taken.
+    EverySets(usize),
+}
+
+/// What swings go with: the time, or the number of the set.
+type Clock = fn(&Seen) -> f64;
+
 /// A recording's sets: when, and what they say of a mode.
 type Take = Vec<(f64, Sum)>;
 
@@ -38,10 +52,8 @@ type Take = Vec<(f64, Sum)>;
 pub struct Swing {
     /// Its mode.
     pub mode: &'static str,
-    /// Its frequency, Hz.
-    pub hz: f64,
-    /// Whether it comes and goes with every other set.
-    pub alternates: bool,
+    /// When it comes again.
+    pub comes: Comes,
     /// What it says among all frequencies.
     pub found: Greatest,
 }
@@ -54,8 +66,12 @@ const LEAST_SETS: usize = 16;
 const NUMBERS: usize = 2;
 /// Standard deviations that a set is taken to be off at most.
 const MOST: f64 = 10.0;
-/// A swing of every other set is off by fewer cycles over a recording.
-const ALTERNATING_CYCLES: f64 = 1.0;
+/// A swing of every other set, or of every so many, is off by fewer cycles over a recording.
+const OFF_CYCLES: f64 = 1.0;
+/// More sets than so many do not take turns.
+const MOST_SETS: usize = 12;
+/// A swing that goes with the sets' numbers says more than one in time, nats: of sets that are evenly apart both say the same.
+const CLEARLY_NATS: f64 = 3.0;
 /// Products of frequencies and sets that are looked at, at most.
 const MOST_PRODUCTS: f64 = 2e8;
 
@@ -77,12 +93,32 @@ impl Swings {
 
     /// The strongest of each mode, with a phase of its own in each recording and of the same size in all.
     pub fn strongest(&self) -> Vec<Swing> {
-        (0..SWINGING).filter_map(|mode| self.of_mode(mode)).collect()
+        let of_mode = |mode: usize| {
+            let in_time = self.of_mode(mode, |set| set.time_s);
+            let by_number = self.of_mode(mode, |set| set.number as f64);
+            let ln_bayes =
+                |swing: &Option<(Swing, _)>| swing.as_ref().map_or(0.0, |swing| swing.0.found.ln_bayes);
+            let clearly = ln_bayes(&by_number) > ln_bayes(&in_time) + CLEARLY_NATS;
+            let turn = by_number.filter(|_| clearly).and_then(|(swing, takes)| {
+                let comes = Comes::EverySets(turn_of(&takes, swing.comes)?);
+                Some(Swing { comes, ..swing })
+            });
+            turn.or_else(|| {
+                in_time.map(|(swing, takes)| {
+                    if alternates(&takes, swing.comes) {
+                        Swing { comes: Comes::EverySets(2), ..swing }
+                    } else {
+                        swing
+                    }
+                })
+            })
+        };
+        (0..SWINGING).filter_map(of_mode).collect()
     }
 
     /// The recordings that say something of a mode; none where all of them move alike, because there what comes again with the phase or the position
     /// does so in time.
-    fn takes(&self, mode: usize) -> Vec<Take> {
+    fn takes(&self, mode: usize, clock: Clock) -> Vec<Take> {
         let mut takes: BTreeMap<usize, Vec<&Seen>> = BTreeMap::new();
         for seen in self.sets.iter().filter(|seen| seen.modes[mode].1 > 0.0) {
             takes.entry(seen.take).or_default().push(seen);
@@ -95,19 +131,20 @@ impl Swings {
             return Vec::new();
         }
         let of_mode = |mut sets: Vec<&Seen>| {
-            sets.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+            sets.sort_by(|a, b| clock(a).total_cmp(&clock(b)));
             let sums = sets.iter().map(|set| set.modes[mode]);
             let (score, information) = sums.fold((0.0, 0.0), |sum, set| (sum.0 + set.0, sum.1 + set.1));
             let mean = score / information;
             sets.iter()
-                .map(|set| (set.time_s, (set.modes[mode].0 - mean * set.modes[mode].1, set.modes[mode].1)))
+                .map(|set| (clock(set), (set.modes[mode].0 - mean * set.modes[mode].1, set.modes[mode].1)))
                 .collect()
         };
         takes.into_values().map(of_mode).collect()
     }
 
-    fn of_mode(&self, mode: usize) -> Option<Swing> {
-        let mut takes = self.takes(mode);
+    /// The strongest of a mode, and what its recordings say.
+    fn of_mode(&self, mode: usize, clock: Clock) -> Option<(Swing, Vec<Take>)> {
+        let mut takes = self.takes(mode, clock);
         let longest_s = takes.iter().map(|sets| sets[sets.len() - 1].0 - sets[0].0).fold(0.0, f64::max);
         let usual_s = usual(takes.iter().flat_map(gaps).collect())?;
         let sets = takes.iter().map(Vec::len).sum::<usize>() as f64;
@@ -130,13 +167,33 @@ impl Swings {
         };
         let sizes: Vec<(f64, f64)> = takes.iter().map(size).collect();
         let found = Greatest::of(line.chi2, NUMBERS * takes.len(), line.looked);
-        let alternates = takes.iter().all(|take| {
-            let duration_s = take[take.len() - 1].0 - take[0].0;
-            let off_hz = 0.5 / usual(gaps(take)).unwrap_or(f64::NAN) - line.frequency;
-            off_hz.abs() * duration_s < ALTERNATING_CYCLES
-        });
-        agree(&sizes).then_some(Swing { mode: MODES[mode], hz: line.frequency, alternates, found })
+        let swing = Swing { mode: MODES[mode], comes: Comes::Hz(line.frequency), found };
+        agree(&sizes).then_some((swing, takes))
     }
+}
+
+/// Whether what comes again in time does so with every other set.
+fn alternates(takes: &[Take], comes: Comes) -> bool {
+    let Comes::Hz(hz) = comes else { return false };
+    takes.iter().all(|take| {
+        let off_hz = 0.5 / usual(gaps(take)).unwrap_or(f64::NAN) - hz;
+        off_hz.abs() * span(take) < OFF_CYCLES
+    })
+}
+
+/// With how many sets what has this frequency, a set, comes again, in all recordings.
+fn turn_of(takes: &[Take], comes: Comes) -> Option<usize> {
+    let Comes::Hz(a_set) = comes else { return None };
+    let longest = takes.iter().map(span).fold(0.0, f64::max);
+    (2..=MOST_SETS).find(|&sets| {
+        let turns = a_set * sets as f64;
+        (turns - turns.round()).abs() / sets as f64 * longest < OFF_CYCLES
+    })
+}
+
+/// From the first set to the last.
+fn span(take: &Take) -> f64 {
+    take[take.len() - 1].0 - take[0].0
 }
 
 /// Times from set to set, s.
@@ -167,10 +224,15 @@ mod tests {
                 let mut at = [0.0; 2];
                 at[take] = set as f64;
                 let sum = noise[take] * draw + phase(take, time_s);
-                swings.add(Seen { take, time_s, at, modes: [(0.0, 0.0), (0.0, 0.0), (sum, 1.0)] });
+                let modes = [(0.0, 0.0), (0.0, 0.0), (sum, 1.0)];
+                swings.add(Seen { take, number: set, time_s, at, modes });
             }
         }
         swings.strongest().into_iter().next()
+    }
+
+    fn hz(swing: Swing) -> f64 {
+        if let Comes::Hz(hz) = swing.comes { hz } else { f64::NAN }
     }
 
     fn thermostat(take: usize, time_s: f64) -> f64 {
@@ -180,7 +242,7 @@ mod tests {
     #[test]
     fn a_thermostat_is_found_below_the_noise() {
         let found = swing(11, [1.0, 1.0], thermostat).unwrap();
-        assert!(found.found.ln_bayes > 4.0 && (found.hz - 1.0 / 3.1).abs() < 0.02, "{found:?}");
+        assert!(found.found.ln_bayes > 4.0 && (hz(found) - 1.0 / 3.1).abs() < 0.02, "{found:?}");
         assert_eq!(found.mode, "phase");
         // It is as strong in the recording that has more noise, and in both where a set is far above the noise.
         assert!(swing(12, [0.5, 1.5], thermostat).is_some_and(|found| found.found.ln_bayes > 4.0));
@@ -192,9 +254,29 @@ mod tests {
     fn what_changes_its_sign_from_set_to_set_alternates() {
         let alternates = |period_s: f64| {
             let swings = swing(14, [1.0, 1.0], |_, time_s| (TAU * time_s / period_s + 0.7).cos()).unwrap();
-            swings.alternates
+            swings.comes == Comes::EverySets(2)
         };
         assert!(alternates(0.4) && !alternates(0.42) && !alternates(0.5) && !alternates(3.1));
+    }
+
+    /// Every fifth set of a sweep and of a rail that comes back after each run, which takes as long as seven sets and a half, is another one.
+    #[test]
+    fn sets_that_take_turns_do_so_whenever_they_are_taken() {
+        let mut swings = Swings::default();
+        for take in 0..2_usize {
+            let draws = Draws::of(15, take as u64).normal(240);
+            for (number, draw) in draws.iter().enumerate() {
+                let pauses = if take == 1 { (number / 12) as f64 } else { 0.0 };
+                let (time_s, at) =
+                    (0.2 * (number as f64 + 7.5 * pauses), [take * number, (1 - take) * number]);
+                let sum = draw + if number % 5 == 3 { 2.0 } else { 0.0 };
+                let modes = [(0.0, 0.0), (0.0, 0.0), (sum, 1.0)];
+                swings.add(Seen { take, number, time_s, at: at.map(|at| at as f64), modes });
+            }
+        }
+        let swing = swings.strongest().into_iter().next().unwrap();
+        assert_eq!((swing.mode, swing.comes), ("phase", Comes::EverySets(5)), "{swing:?}");
+        assert!(swing.found.ln_bayes > 50.0, "{swing:?}");
     }
 
     #[test]
@@ -225,6 +307,7 @@ mod tests {
                 let modes = [((set % 3) as f64, 1.0); SWINGING];
                 swings.add(Seen {
                     take,
+                    number: set,
                     time_s: time_s(set),
                     at: [set as f64, at * (take * set) as f64],
                     modes,

@@ -3,7 +3,7 @@
 use super::evidence::tail;
 use super::found::{Found, Named};
 use super::lamps::FLICKER;
-use super::location::{LOCATED_NATS, Located, Location};
+use super::location::{LOCATED_NATS, Located};
 use super::pass::RIVAL_NATS;
 use super::pieces::{OF_OTHER_PIXELS, Piece};
 use super::tolerated::tolerated;
@@ -14,6 +14,10 @@ const OCCAM_NATS: f64 = 10.0;
 const OF_NOISE: f64 = 1e-100;
 /// Noise brings what a coordinate shows clearly more rarely where its probability is less by this factor: a nat.
 const RARER: f64 = 0.37;
+/// So much of chi squared is seen at the end, if it is left: columns at a baseline that is far off promise more than there is, and their readings have another variance there.
+const SEEN: f64 = 100.0;
+/// Of it, so much.
+const LEFT: f64 = 0.5;
 
 /// What the effects that were named say together.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +41,11 @@ pub struct Names {
 /// Effects with a number for each frame of a set, of which each is what some columns are: these say nothing else. Coordinate, and way of being off.
 pub const COLUMNS: [(&str, (&str, &str)); 2] =
     [("phase_step_errors", ("frame", "phase")), ("frame_gain", ("frame", "gain"))];
+
+/// What so many numbers explain besides chance.
+fn excess((chi2, numbers): (f64, usize)) -> f64 {
+    chi2 - numbers as f64
+}
 
 impl Names {
     /// Of the effects `named`, of those that were `found`, which explain so much of chi squared, and so `many` times what their forms may leave counts as theirs;
@@ -73,9 +82,15 @@ impl Names {
     ///
     /// A name must say more than that by a nat, and each further one by as much as it must by than a rival; and noise must not bring what the coordinate
     /// shows clearly more rarely than what the names explain, and their forms may leave. Columns that explain no more, and are no fewer numbers, are only
-    /// another form of the names.
-    pub fn are_outvoted(&self, baseline: &Location) -> bool {
-        baseline.columns.iter().any(|coordinate| self.are_outvoted_by(coordinate))
+    /// another form of the names. Nor do columns that promise more than the names explain, of which nothing is left at the `end`.
+    pub fn are_outvoted(&self, baseline: &[Located], end: &[Located]) -> bool {
+        let more = |coordinate: &Located| excess(coordinate.chi2) - excess((self.at_most.0, self.numbers));
+        let is_there = |coordinate: &Located| {
+            let same = end.iter().filter(|other| other.coordinate == coordinate.coordinate);
+            let left = same.map(|other| excess(other.chi2)).fold(0.0, f64::max);
+            more(coordinate) < SEEN || left > LEFT * more(coordinate)
+        };
+        baseline.iter().any(|coordinate| self.are_outvoted_by(coordinate) && is_there(coordinate))
     }
 
     fn are_outvoted_by(&self, coordinate: &Located) -> bool {
@@ -91,8 +106,8 @@ impl Names {
         }
         let ((chi2, columns), numbers) = (coordinate.chi2, self.numbers);
         // Tangents of a strong effect promise more than there is, and its form may leave something.
-        let is_other =
-            columns < numbers || chi2 - columns as f64 > self.at_most.0 - numbers as f64 + 2.0 * RIVAL_NATS;
+        let is_other = columns < numbers
+            || excess((chi2, columns)) > excess((self.at_most.0, numbers)) + 2.0 * RIVAL_NATS;
         // A flicker swings.
         let is_swing = coordinate.looked > 1.0 && matches!(coordinate.coordinate, "time_s" | "set");
         let says_more = match self.flickers && is_swing {
@@ -183,6 +198,20 @@ mod tests {
             Located { shape: "phase, frame 3 of 4".to_owned(), ..located("frame", 40.0, (90.0, 5), 1.0) };
         assert!(Names { own: of_phase, ..NAMES }.are_outvoted_by(&all));
         assert!(outvotes(Names { own: of_phase, ..NAMES }, "time_s", 30.0, (60.0, 1)));
+    }
+
+    /// Of an axial motion that takes 97 172 of chi squared the velocity's columns promised 1200 more, and the fit left nothing.
+    #[test]
+    fn what_columns_promise_beyond_the_names_must_be_left() {
+        let names = Names { ln_bayes: 48_000.0, numbers: 1, at_most: (97_200.0, 1), ..NAMES };
+        let outvoted = |chi2: f64, left: f64| {
+            let of = |coordinate, chi2| located(coordinate, 0.5 * chi2, (chi2, 12), 1.0);
+            let end = [of("row", 2000.0), of("velocity_m_s", left)];
+            names.are_outvoted(&[of("velocity_m_s", chi2)], &end)
+        };
+        assert!(outvoted(98_400.0, 700.0) && !outvoted(98_400.0, 500.0) && !outvoted(98_400.0, 5.0));
+        // So little may hide.
+        assert!(outvoted(97_290.0, 5.0));
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub static EFFECT: Effect = Effect {
         Parameter::strength("relative", "1", 0.0, (-20.0, 20.0), 0.03),
         Parameter::strength("relative_before", "1", 0.0, (-0.8, 0.8), 0.03).of_recording(),
         Parameter::shape("time_constant_s", "s", 30.0, (2.0, 2000.0), &[10.0, 60.0, 600.0]),
-        Parameter::choice("accelerates", "1", &[0.0, 1.0]),
+        Parameter::choice("course", "1", &[0.0, 1.0]),
     ],
     place: Place::Light,
     chance: Chance::None,

@@ -7,7 +7,8 @@ use crate::widest::widest;
 /// A second return by way of a wall that stands beside the path of the light, at the same distance all along: out directly, back by the
 /// wall's mirror image, √(d² + 4 L²) for a target at d. Its amplitude relative to the direct one is the parameter, were the wall close,
 /// and less by the longer way (0), by its square, out and back (-2), or at any distance the same share of the direct light (-1). Or, whatever the
-/// target's distance, a way longer by as much as the wall is away, out and back together twice that, of light that falls off with it (1).
+/// target's distance, a way longer by as much as the wall is away, out and back together twice that, of light that falls off with it (1), or with the distance
+/// and not with its square, as what a room scatters does: a share of the direct light for each metre (0.5).
 /// A wall beside the path is as far from what all pixels see (0), or stands beyond the last columns (1), the first ones (-1), the last rows (0.5) or the
 /// first ones (-0.5), and its mirror image is the nearer the more a pixel looks that way by its angle a: √(d² + 4 L² - 4 L d sin a).
 pub static EFFECT: Effect = Effect {
@@ -17,7 +18,7 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("relative_amplitude", "1", 0.0, (0.0, 0.8), 0.1),
         Parameter::shape("wall_distance_m", "m", 0.6, (0.02, 6.0), &[0.15, 0.4, 0.8, 1.5]),
-        Parameter::choice("is_longer_by_a_constant", "1", &[0.0, -1.0, -2.0, 1.0]),
+        Parameter::choice("is_longer_by_a_constant", "1", &[0.0, -1.0, -2.0, 0.5, 1.0]),
         Parameter::choice("wall_beside", "1", &[0.0, -1.0, -0.5, 0.5, 1.0]),
     ],
     place: Place::Correlation,
@@ -32,7 +33,8 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     if share == 0.0 {
         return;
     }
-    let is_constant = values[2] > 0.5;
+    let is_constant = values[2] > 0.25;
+    let falls_with_distance = is_constant && values[2] < 0.75;
     let falls_with_square = is_constant || values[2] < -1.5;
     let is_one_share = values[2] < -0.5;
     let nearer_m: Vec<f64> = match towards(&exposure.pixels, values[3]) {
@@ -53,7 +55,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         let signals_dn: &mut [f64] = &mut exposure.signal_dn;
         let (amplitudes_dn, phases_rad) = (&mut amplitudes_dn[..], &mut phases_rad[..]);
         widest!((direct: Direct<'a>, target: &'a [bool], share: f64, wall_m: f64,
-                 is_constant: bool, falls_with_square: bool, is_one_share: bool, frequency_hz: f64,
+                 is_constant: bool, falls_with_distance: bool, falls_with_square: bool, is_one_share: bool, frequency_hz: f64,
                  signals_dn: &'a mut [f64], amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
             let light = direct.amplitude_dn.iter().zip(direct.constant_dn);
             let ways = direct.range_m.iter().zip(direct.nearer_m).zip(direct.phase_rad).zip(target).zip(light);
@@ -64,7 +66,9 @@ fn act(values: &[f64], exposure: &mut Exposure) {
                     true => range_m + 2.0 * wall_m,
                     false => (range_m * range_m + 4.0 * wall_m * (wall_m - nearer_m)).sqrt(),
                 };
-                let part = if falls_with_square {
+                let part = if falls_with_distance {
+                    share * range_m
+                } else if falls_with_square {
                     let nearer = 2.0 * range_m / (range_m + back_m);
                     share * (nearer * nearer)
                 } else if is_one_share {

@@ -12,7 +12,7 @@ pub static EFFECT: Effect = Effect {
         Parameter::strength("drift_rad", "rad", 0.0, (-1.0, 1.0), 0.01),
         Parameter::strength("drift_before_rad", "rad", 0.0, (-1.0, 1.0), 0.01).of_recording(),
         Parameter::shape("time_constant_s", "s", 30.0, (2.0, 2000.0), &[10.0, 60.0, 600.0]),
-        Parameter::choice("accelerates", "1", &[0.0, 1.0]),
+        Parameter::choice("course", "1", &[0.0, 1.0]),
     ],
     place: Place::Clock,
     chance: Chance::None,
