@@ -223,7 +223,13 @@ fn told_parameters_give_the_generators_frames() {
                 let parameter = effect.parameters.iter().find(|parameter| parameter.name == truth.name);
                 assert_eq!(parameter.map(|parameter| parameter.unit), Some(truth.unit.as_str()), "{truth:?}");
             }
-            let value = |truth: &Truth, factor: f64| format!("{}={:e}", truth.name, factor * truth.value);
+            let is_choice = |truth: &Truth| {
+                effect.parameters.iter().any(|parameter| parameter.name == truth.name && parameter.is_choice)
+            };
+            let value = |truth: &Truth, factor: f64| {
+                let factor = if is_choice(truth) { 1.0 } else { factor };
+                format!("{}={:e}", truth.name, factor * truth.value)
+            };
             let difference = |factor: f64| {
                 let all: Vec<String> = truths.iter().map(|truth| value(truth, factor)).collect();
                 let effect = injection(&format!("{}:{}", mechanism.name, all.join(","))).unwrap();

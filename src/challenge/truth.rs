@@ -45,10 +45,12 @@ const TRUTHS: &[(&str, &[Row])] = &[
             ("time_constant_s", "s", |flaw, _| flaws::light_warm_up_s(flaw)),
         ],
     ),
-    // A minute has 60 s.
     (
         "ambient_drift",
-        &[("relative_a_second", "1/s", |flaw, _| flaws::daylight_a_minute(flaw).map(|change| change / 60.0))],
+        &[
+            ("relative_a_second", "1/s", |flaw, _| Some(signed(flaw) / flaws::ambient_drift_s(flaw))),
+            ("course", "1", |flaw, _| flaws::begins_anew(flaw).then_some(-1.0)),
+        ],
     ),
     // cos(a + x) = cos x cos a - sin x sin a, here and below.
     (

@@ -20,6 +20,7 @@ use super::random::{
     may_be_of_light, new_each_time, of_name, random_effect, two_jitters, words,
 };
 use super::refused::{Refused, refused};
+use super::resting::begins_anew;
 use super::searched::{InProportion, Searched, searched};
 use super::tolerated::{tolerated, tolerated_as_new};
 use super::vote::Names;
@@ -99,7 +100,10 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // A random effect takes with it what is left at random.
     let is_more = |random: &RandomEffect| {
         // What a form leaves is nearly the same where the target is again, if the effect is.
-        let as_new = tolerated_as_new(&named, may_be_of_light(&end, random));
+        let as_new = tolerated_as_new(&named, may_be_of_light(&end, random), &|name| {
+            let mut of_name = found.fit.pieces.iter().filter(|piece| piece.effect.name == name);
+            of_name.clone().count() > 0 && of_name.all(begins_anew)
+        });
         let new = || new_each_time(&end, random.name) - CLUSTER_NATS;
         is_beyond_forms(random.ln_bayes, tolerated(&named)) || is_beyond_forms(new(), as_new)
     };
@@ -137,12 +141,15 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // Where nothing of the camera is described, several things are left out at once, and a coordinate shows a part of each.
     let many = if data.assumed.camera { DISBELIEF } else { 1.0 };
     let names = if is_far || are_raised { None } else { Names::of(&found, &named, explained, many) };
+    // What the end leaves says something of names only where all that was fitted is asserted.
+    let all_stand = !are_dropped && unnamed.is_none();
     places.extend(excess.map(|excess| of_excess(&excess, end.take)));
     let case = Case {
         named: &named,
         are_dropped,
         at_random: (at_random.len(), random.is_some()),
-        are_outvoted: names.is_some_and(|names| names.are_outvoted(&baseline.columns, &end.columns)),
+        are_outvoted: names
+            .is_some_and(|names| names.are_outvoted(&baseline.columns, all_stand.then_some(&end.columns))),
         is_misnamed: unnamed.is_some(),
         is_far,
         remainder,

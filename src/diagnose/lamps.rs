@@ -1,6 +1,6 @@
 //! Whether a line of the ambient light is a lamp's: lamps flicker with twice the mains' frequency.
 
-use super::gaps::{gaps, seen_cycles};
+use super::gaps::{Gap, cycles_of_group, gaps, seen_cycles};
 use super::lines::{CLEARLY_MORE, DRIFT_CYCLES, MAINS_DRIFT_CYCLES, Series, most_between};
 
 /// The effect that is a line in time.
@@ -10,6 +10,8 @@ pub const FLICKER_HZ: (f64, f64) = (80.0, 130.0);
 const TWICE_MAINS_HZ: [f64; 2] = [100.0, 120.0];
 /// By what share the mains' frequency is off at most.
 pub const MAINS_OFF: f64 = 2e-3;
+/// Of a cycle, what is no more within a set is none.
+const LEAST_FORWARD: f64 = 1e-3;
 /// A generator that is not on the grid is off by more, but hardly by this share.
 const NEAR_MAINS: f64 = 0.05;
 
@@ -39,17 +41,48 @@ impl Series {
 
     /// Whether all recordings see a lamp's flicker at rest: it is a drift to them, and a drift may be a flicker.
     pub fn flicker_rests(&self) -> bool {
+        self.has_resting(&|_, _| true)
+    }
+
+    /// The same of one that goes forward in each set, and back again to the next: what drifts anew within every set may be that.
+    pub fn flicker_comes_back(&self) -> bool {
+        self.has_resting(&|gaps, mains| cycles_of_group(gaps, mains) > LEAST_FORWARD)
+    }
+
+    /// Whether all recordings see a lamp's flicker at rest of which, with their gaps, this is true in one.
+    fn has_resting(&self, is_so: &dyn Fn(&[Gap], f64) -> bool) -> bool {
         let gaps: Vec<_> = self.by_take().iter().map(|take| gaps(take)).collect();
-        let rests = |mains: &f64| gaps.iter().all(|gaps| seen_cycles(gaps, *mains) < MAINS_DRIFT_CYCLES);
-        !gaps.is_empty() && TWICE_MAINS_HZ.iter().any(rests)
+        let rests = |mains: f64| gaps.iter().all(|gaps| seen_cycles(gaps, mains) < MAINS_DRIFT_CYCLES);
+        let is_it = |&mains: &f64| rests(mains) && gaps.iter().any(|gaps| is_so(gaps, mains));
+        TWICE_MAINS_HZ.iter().any(is_it)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::lines::FrameSeen;
     use crate::physics::Draws;
     use std::f64::consts::TAU;
+
+    /// Frames 25 ms apart see 100 and 120 Hz stand, and frames 20.2 ms apart, in sets that begin 200 ms apart, see 100 Hz go forward and come back.
+    #[test]
+    fn a_lamp_may_go_forward_in_every_set_and_come_back() {
+        let of = |frame_s: f64, set_s: f64| {
+            let frame = |n: usize| FrameSeen {
+                take: 0,
+                time_s: set_s * (n / 4) as f64 + frame_s * (n % 4) as f64,
+                turns: 0.0,
+                ambient: (0.0, 1.0),
+            };
+            let series =
+                Series { frame_period_s: frame_s, frames: (0..80).map(frame).collect(), ..Series::default() };
+            (series.flicker_rests(), series.flicker_comes_back())
+        };
+        assert_eq!(of(0.025, 0.275), (true, false));
+        assert_eq!(of(0.0202, 0.2), (true, true));
+        assert_eq!(of(0.0237, 0.2), (false, false));
+    }
 
     /// Frames 25 ms apart, in sets of four that begin eleven of them apart, see a line of 117.6 Hz and one of 82.4 Hz alike, and scans do not, whose steps
     /// are at other places between them.

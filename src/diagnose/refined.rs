@@ -13,10 +13,12 @@ use rayon::prelude::*;
 /// Effects, and of one of their choices what is seldom.
 const SELDOM: [(&str, &str, &[f64]); 3] = [
     (OF_CODES, "form", &[1.0, 0.5, -0.5, -1.0]),
-    (OF_WALLS, "is_longer_by_a_constant", &[-2.0, 0.5]),
-    (OF_WALLS, "wall_beside", &[1.0, 0.5, -0.5, -1.0]),
+    (OF_WALLS, LONGER, &[-2.0, 0.5]),
+    (OF_WALLS, SIDE, &[1.0, 0.5, -0.5, -1.0]),
 ];
 const OF_WALLS: &str = "multipath_interference";
+const LONGER: &str = "is_longer_by_a_constant";
+const SIDE: &str = "wall_beside";
 /// A form over the codes repeats among the signals so often at least.
 const REPEATS: f64 = 2.0;
 /// Among the ways of an effect, the number of that in which it is.
@@ -34,6 +36,11 @@ fn with_choice(piece: &Piece, choice: &str, chosen: f64) -> Option<Piece> {
     let number = piece.effect.parameters.iter().position(|parameter| parameter.name == choice)?;
     let mut other = piece.clone();
     other.values[number] = chosen;
+    // A way that is longer by a constant has no side.
+    if (choice, chosen > 0.0) == (LONGER, true) {
+        let side = piece.effect.parameters.iter().position(|parameter| parameter.name == SIDE)?;
+        other.values[side] = 0.0;
+    }
     (!is_seldom(piece.effect.name, choice, piece.values[number])).then_some(other)
 }
 
@@ -114,6 +121,6 @@ mod tests {
     #[test]
     fn what_is_seldom_is_no_candidate() {
         assert!(is_seldom(OF_CODES, "form", 1.0) && !is_seldom(OF_CODES, "form", 0.0));
-        assert!(!is_seldom(OF_WALLS, "is_longer_by_a_constant", 1.0) && !is_seldom("image_lag", "form", 1.0));
+        assert!(!is_seldom(OF_WALLS, LONGER, 1.0) && !is_seldom("image_lag", "form", 1.0));
     }
 }

@@ -6,15 +6,26 @@ use super::fit::{Fit, fit};
 use super::found::Named;
 use super::lamps::FLICKER;
 use super::noise::Noise;
+use super::pieces::Piece;
 
 /// Light that drifts.
 const DRIFTS: [&str; 2] = ["ambient_drift", "illumination_drift"];
+
+/// Whether the course of what drifts begins anew with every set.
+pub fn begins_anew(piece: &Piece) -> bool {
+    let numbers = piece.effect.parameters.iter().zip(&piece.values);
+    numbers.filter(|(parameter, _)| parameter.name == "course").any(|(_, &course)| course < 0.0)
+}
 
 /// Takes the flicker out of `current`, and of what is `named`, where a drift of light is named beside it and the frames see less of it than a drift has: it is
 /// possible beside that then, and no name of its own.
 pub fn drop_resting(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<Named>) {
     let Some(flicker) = named.iter().position(|named| named.name == FLICKER) else { return };
-    let is_drift = |named: &Named| DRIFTS.contains(&named.name);
+    // What begins anew with every set leaves nothing that goes from set to set.
+    let goes_on =
+        |name: &str| current.pieces.iter().any(|piece| piece.effect.name == name && !begins_anew(piece));
+    let going: Vec<&str> = DRIFTS.into_iter().filter(|name| goes_on(name)).collect();
+    let is_drift = |named: &Named| going.contains(&named.name);
     let mut pieces = current.pieces.iter().filter(|piece| piece.effect.name == FLICKER);
     if !named.iter().any(is_drift) || !pieces.all(|piece| current.series.sees_at_rest(piece.values[2])) {
         return;
@@ -30,7 +41,6 @@ mod tests {
     use super::*;
     use crate::bench::{injection, taken};
     use crate::diagnose::finished::unfitted;
-    use crate::diagnose::pieces::Piece;
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
 

@@ -18,7 +18,7 @@ use super::pass::{Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates};
 use super::promised::Promised;
 use super::refined::refined;
-use super::resting::drop_resting;
+use super::resting::{begins_anew, drop_resting};
 use super::tolerated::tolerated;
 use super::trust::Trust;
 use super::uneven::uneven;
@@ -27,19 +27,12 @@ use std::collections::BTreeSet;
 const MOST_EFFECTS: usize = 4;
 /// What a flicker is that all frames see at rest.
 const DRIFT: &str = "ambient_drift";
-const COURSE: &str = "course";
 /// Beside so many, what the forms of these may leave is no further one.
 const MOST_TRUSTED: usize = 2;
 /// Without a camera's description much is left out at once: so much of what their forms may leave keeps further effects out.
 pub const UNDESCRIBED: f64 = 0.1;
 /// A fit keeps at least so much of what the tangents promise.
 const KEPT_SHARE: f64 = 0.5;
-
-/// Whether the course of what drifts begins anew with every set.
-fn begins_anew(piece: &Piece) -> bool {
-    let numbers = piece.effect.parameters.iter().zip(&piece.values);
-    numbers.filter(|(parameter, _)| parameter.name == COURSE).any(|(_, &course)| course < 0.0)
-}
 
 /// A search, as far as it has come.
 #[derive(Debug)]
@@ -126,10 +119,14 @@ impl<'a> Search<'a> {
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
         let Self { data, noise, baseline, current, mut named, .. } = self;
         let current = without_bounded(data, finished(data, current, noise), noise, &mut named);
-        // However a drift was named, and if a flicker is not named beside it. What begins anew with every set no lamp does.
+        // However a drift was named, and if a flicker is not named beside it.
         let is_named = named.iter().any(|named| named.name == FLICKER);
-        let goes_on = current.pieces.iter().any(|piece| piece.effect.name == DRIFT && !begins_anew(piece));
-        if goes_on && !is_named && Alone::of(&alone, FLICKER).is_some() && baseline.series.flicker_rests() {
+        let mut drifts = current.pieces.iter().filter(|piece| piece.effect.name == DRIFT);
+        let rests = match drifts.all(begins_anew) {
+            true => baseline.series.flicker_comes_back(),
+            false => baseline.series.flicker_rests(),
+        };
+        if !is_named && Alone::of(&alone, FLICKER).is_some() && rests {
             named.iter_mut().filter(|named| named.name == DRIFT).for_each(|drift| drift.may_be(FLICKER));
         }
         Found { baseline, fit: current, named, invisible, detectable, alone, simpler }

@@ -66,10 +66,14 @@ const LEAST_SETS: usize = 16;
 const NUMBERS: usize = 2;
 /// Standard deviations that a set is taken to be off at most.
 const MOST: f64 = 10.0;
-/// A swing of every other set, or of every so many, is off by fewer cycles over a recording.
-const OFF_CYCLES: f64 = 1.0;
-/// More sets than so many do not take turns.
+/// A swing of every other set is off by fewer cycles over a recording.
+const ALTERNATING_CYCLES: f64 = 1.0;
+/// One whose period is a number of sets, up to so many, by fewer: a step of the scan is a quarter of a cycle, and its last one may be that far from the
+/// end.
+const OFF_CYCLES: f64 = 0.3;
 const MOST_SETS: usize = 12;
+/// What is looked at: times, and numbers of sets.
+const CLOCKS: f64 = 2.0;
 /// A swing that goes with the sets' numbers says more than one in time, nats: of sets that are evenly apart both say the same.
 const CLEARLY_NATS: f64 = 3.0;
 /// Products of frequencies and sets that are looked at, at most.
@@ -100,8 +104,8 @@ impl Swings {
                 |swing: &Option<(Swing, _)>| swing.as_ref().map_or(0.0, |swing| swing.0.found.ln_bayes);
             let clearly = ln_bayes(&by_number) > ln_bayes(&in_time) + CLEARLY_NATS;
             let turn = by_number.filter(|_| clearly).and_then(|(swing, takes)| {
-                let comes = Comes::EverySets(turn_of(&takes, swing.comes)?);
-                Some(Swing { comes, ..swing })
+                let sets = period_of(&takes, swing.comes).filter(|&sets| !self.settings_come_again(sets))?;
+                Some(Swing { comes: Comes::EverySets(sets), ..swing })
             });
             turn.or_else(|| {
                 in_time.map(|(swing, takes)| {
@@ -114,6 +118,18 @@ impl Swings {
             })
         };
         (0..SWINGING).filter_map(of_mode).collect()
+    }
+
+    /// Whether all recordings are at the same phase offset and position again after so many `sets`: what goes with these does so with the sets' numbers.
+    fn settings_come_again(&self, sets: usize) -> bool {
+        let mut takes: BTreeMap<usize, BTreeMap<usize, [f64; 2]>> = BTreeMap::new();
+        for seen in &self.sets {
+            takes.entry(seen.take).or_default().insert(seen.number, seen.at);
+        }
+        let again = |take: &BTreeMap<usize, [f64; 2]>| {
+            take.iter().all(|(number, at)| take.get(&(number + sets)).is_none_or(|later| later == at))
+        };
+        takes.values().all(again)
     }
 
     /// The recordings that say something of a mode; none where all of them move alike, because there what comes again with the phase or the position
@@ -166,7 +182,7 @@ impl Swings {
             (sigma * power(take, line.frequency).sqrt(), sigma)
         };
         let sizes: Vec<(f64, f64)> = takes.iter().map(size).collect();
-        let found = Greatest::of(line.chi2, NUMBERS * takes.len(), line.looked);
+        let found = Greatest::of(line.chi2, NUMBERS * takes.len(), CLOCKS * line.looked);
         let swing = Swing { mode: MODES[mode], comes: Comes::Hz(line.frequency), found };
         agree(&sizes).then_some((swing, takes))
     }
@@ -177,18 +193,24 @@ fn alternates(takes: &[Take], comes: Comes) -> bool {
     let Comes::Hz(hz) = comes else { return false };
     takes.iter().all(|take| {
         let off_hz = 0.5 / usual(gaps(take)).unwrap_or(f64::NAN) - hz;
-        off_hz.abs() * span(take) < OFF_CYCLES
+        off_hz.abs() * span(take) < ALTERNATING_CYCLES
     })
 }
 
-/// With how many sets what has this frequency, a set, comes again, in all recordings.
-fn turn_of(takes: &[Take], comes: Comes) -> Option<usize> {
+/// The period, in sets, of what has this frequency, a set, in all recordings; nothing where it is none, or may be several.
+fn period_of(takes: &[Take], comes: Comes) -> Option<usize> {
     let Comes::Hz(a_set) = comes else { return None };
     let longest = takes.iter().map(span).fold(0.0, f64::max);
-    (2..=MOST_SETS).find(|&sets| {
-        let turns = a_set * sets as f64;
-        (turns - turns.round()).abs() / sets as f64 * longest < OFF_CYCLES
-    })
+    let is_near =
+        |turns: usize, sets: usize| (a_set - turns as f64 / sets as f64).abs() * longest < OFF_CYCLES;
+    let near = |sets: usize| (1..sets).any(|turns| is_coprime(turns, sets) && is_near(turns, sets));
+    let mut periods = (2..=MOST_SETS).filter(|&sets| near(sets));
+    let period = periods.next()?;
+    periods.next().is_none().then_some(period)
+}
+
+fn is_coprime(one: usize, other: usize) -> bool {
+    (2..=one.min(other)).all(|divisor| !one.is_multiple_of(divisor) || !other.is_multiple_of(divisor))
 }
 
 /// From the first set to the last.
@@ -259,24 +281,61 @@ mod tests {
         assert!(alternates(0.4) && !alternates(0.42) && !alternates(0.5) && !alternates(3.1));
     }
 
-    /// Every fifth set of a sweep and of a rail that comes back after each run, which takes as long as seven sets and a half, is another one.
-    #[test]
-    fn sets_that_take_turns_do_so_whenever_they_are_taken() {
+    /// A sweep of so many sets, and as many of a rail that comes back after each run of `run`, which takes longer each time: with the noise of one, what each set
+    /// has by its number.
+    fn with_runs(sets: usize, run: usize, seed: u64, of_set: impl Fn(usize) -> f64) -> Option<Swing> {
         let mut swings = Swings::default();
         for take in 0..2_usize {
-            let draws = Draws::of(15, take as u64).normal(240);
+            let draws = Draws::of(seed, take as u64).normal(sets);
             for (number, draw) in draws.iter().enumerate() {
-                let pauses = if take == 1 { (number / 12) as f64 } else { 0.0 };
-                let (time_s, at) =
-                    (0.2 * (number as f64 + 7.5 * pauses), [take * number, (1 - take) * number]);
-                let sum = draw + if number % 5 == 3 { 2.0 } else { 0.0 };
-                let modes = [(0.0, 0.0), (0.0, 0.0), (sum, 1.0)];
-                swings.add(Seen { take, number, time_s, at: at.map(|at| at as f64), modes });
+                let runs = if take == 1 { (number / run) as f64 } else { 0.0 };
+                let time_s = 0.2 * (number as f64 + 7.3 * runs + 0.9 * runs * runs);
+                let at = [take * (number % run), (1 - take) * number].map(|at| at as f64);
+                let modes = [(0.0, 0.0), (0.0, 0.0), (draw + of_set(number), 1.0)];
+                swings.add(Seen { take, number, time_s, at, modes });
             }
         }
-        let swing = swings.strongest().into_iter().next().unwrap();
-        assert_eq!((swing.mode, swing.comes), ("phase", Comes::EverySets(5)), "{swing:?}");
-        assert!(swing.found.ln_bayes > 50.0, "{swing:?}");
+        swings.strongest().into_iter().next()
+    }
+
+    /// What every fifth set has of its own, or comes again with seven or eleven of them, whenever these are taken; and nothing of a period that is no number of sets.
+    #[test]
+    fn a_period_may_be_a_number_of_sets() {
+        let fifth = with_runs(240, 13, 15, |number| if number % 5 == 3 { 2.0 } else { 0.0 }).unwrap();
+        assert_eq!((fifth.mode, fifth.comes), ("phase", Comes::EverySets(5)), "{fifth:?}");
+        let wave = |sets: usize, period: f64| {
+            let wave = with_runs(sets, 13, 16, |number| 2.0 * (TAU * number as f64 / period).cos());
+            wave.map(|wave| wave.comes)
+        };
+        for period in [2, 3, 7, 10, 11, 12] {
+            assert_eq!(wave(102, period as f64), Some(Comes::EverySets(period)), "{period}");
+        }
+        assert!(!matches!(wave(102, 5.37), Some(Comes::EverySets(_))));
+        // Few sets do not tell eleven from twelve.
+        assert!(!matches!(wave(26, 11.5), Some(Comes::EverySets(_))));
+    }
+
+    /// Runs of twelve sets come again to the same places, and what goes with these comes again with twelve sets.
+    #[test]
+    fn what_comes_again_with_the_settings_is_no_period_of_sets() {
+        let mut swings = Swings::default();
+        let mut add = |take: usize, number: usize| {
+            let modes = [(0.0, 0.0), (0.0, 0.0), (3.0 * (TAU * number as f64 / 12.0).sin(), 1.0)];
+            let at = [take * (number % 12), (1 - take) * (number % 12)].map(|at| at as f64);
+            let time_s = 0.2 * (number as f64 + 7.3 * (take * (number / 12)) as f64);
+            swings.add(Seen { take, number, time_s, at, modes });
+        };
+        (0..240).for_each(|number| [0, 1].into_iter().for_each(|take| add(take, number)));
+        assert!(swings.settings_come_again(12) && !swings.settings_come_again(6));
+        assert!(!swings.strongest().iter().any(|swing| matches!(swing.comes, Comes::EverySets(_))));
+    }
+
+    #[test]
+    fn noise_has_no_period_of_sets() {
+        let alarms = (0..200).filter(|seed| {
+            with_runs(102, 13, *seed, |_| 0.0).is_some_and(|swing| swing.found.ln_bayes > 1.0)
+        });
+        assert_eq!(alarms.count(), 0);
     }
 
     #[test]

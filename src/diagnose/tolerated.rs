@@ -53,10 +53,11 @@ const CHANGING: [&[&str]; 2] = [
 /// Of what the form of another effect leaves, what is not the same there.
 const NOT_STRAIGHT: f64 = 0.02;
 
-/// The same of what is new each time that the target is somewhere; of light only if what is left may be of that.
-pub fn tolerated_as_new(named: &[Named], may_be_of_light: bool) -> f64 {
+/// The same of what is new each time that the target is somewhere; of light only if what is left may be of that, and not of what is `steady` though it is among those.
+pub fn tolerated_as_new(named: &[Named], may_be_of_light: bool, steady: &dyn Fn(&str) -> bool) -> f64 {
     let [of_light, others] = CHANGING;
     let share = |name: &str| match name {
+        name if steady(name) => NOT_STRAIGHT,
         name if others.contains(&name) || may_be_of_light && of_light.contains(&name) => 1.0,
         _ => NOT_STRAIGHT,
     };
@@ -92,8 +93,12 @@ mod tests {
     fn where_the_target_is_again_little_is_left_but_of_what_goes_with_the_time() {
         let all = [named("lens_scatter", 1e6), named("ambient_flicker", 1e5), named("phase_drift", 1e4)];
         let of = |number: usize| tolerance(all[number].name) * all[number].score.0;
-        let is = |of_light, expected: f64| (tolerated_as_new(&all, of_light) / expected - 1.0).abs() < 1e-12;
+        let is_of = |of_light, steady: &str, expected: f64| {
+            (tolerated_as_new(&all, of_light, &|name| name == steady) / expected - 1.0).abs() < 1e-12
+        };
+        let is = |of_light, expected: f64| is_of(of_light, "", expected);
         assert!(is(true, 0.02 * of(0) + of(1) + of(2)));
         assert!(is(false, 0.02 * (of(0) + of(1)) + of(2)));
+        assert!(is_of(true, "phase_drift", 0.02 * (of(0) + of(2)) + of(1)));
     }
 }

@@ -14,7 +14,7 @@ const OCCAM_NATS: f64 = 10.0;
 const OF_NOISE: f64 = 1e-100;
 /// Noise brings what a coordinate shows clearly more rarely where its probability is less by this factor: a nat.
 const RARER: f64 = 0.37;
-/// So much of chi squared is seen at the end, if it is left: columns at a baseline that is far off promise more than there is, and their readings have another variance there.
+/// So much of chi squared is seen at the end, if it is left: columns of a strong effect promise more than there is, and at the baseline readings seem to scatter more.
 const SEEN: f64 = 100.0;
 /// Of it, so much.
 const LEFT: f64 = 0.5;
@@ -82,10 +82,11 @@ impl Names {
     ///
     /// A name must say more than that by a nat, and each further one by as much as it must by than a rival; and noise must not bring what the coordinate
     /// shows clearly more rarely than what the names explain, and their forms may leave. Columns that explain no more, and are no fewer numbers, are only
-    /// another form of the names. Nor do columns that promise more than the names explain, of which nothing is left at the `end`.
-    pub fn are_outvoted(&self, baseline: &[Located], end: &[Located]) -> bool {
+    /// another form of the names. Nor do columns that promise clearly more than the names explain, of which less than half is left at the `end`, where that is known.
+    pub fn are_outvoted(&self, baseline: &[Located], end: Option<&[Located]>) -> bool {
         let more = |coordinate: &Located| excess(coordinate.chi2) - excess((self.at_most.0, self.numbers));
         let is_there = |coordinate: &Located| {
+            let Some(end) = end else { return true };
             let same = end.iter().filter(|other| other.coordinate == coordinate.coordinate);
             let left = same.map(|other| excess(other.chi2)).fold(0.0, f64::max);
             more(coordinate) < SEEN || left > LEFT * more(coordinate)
@@ -207,9 +208,10 @@ mod tests {
         let outvoted = |chi2: f64, left: f64| {
             let of = |coordinate, chi2| located(coordinate, 0.5 * chi2, (chi2, 12), 1.0);
             let end = [of("row", 2000.0), of("velocity_m_s", left)];
-            names.are_outvoted(&[of("velocity_m_s", chi2)], &end)
+            names.are_outvoted(&[of("velocity_m_s", chi2)], Some(&end))
         };
         assert!(outvoted(98_400.0, 700.0) && !outvoted(98_400.0, 500.0) && !outvoted(98_400.0, 5.0));
+        assert!(names.are_outvoted(&[located("velocity_m_s", 49_000.0, (98_400.0, 12), 1.0)], None));
         // So little may hide.
         assert!(outvoted(97_290.0, 5.0));
     }

@@ -8,7 +8,7 @@ use crate::widest::widest;
 /// wall's mirror image, √(d² + 4 L²) for a target at d. Its amplitude relative to the direct one is the parameter, were the wall close,
 /// and less by the longer way (0), by its square, out and back (-2), or at any distance the same share of the direct light (-1). Or, whatever the
 /// target's distance, a way longer by as much as the wall is away, out and back together twice that, of light that falls off with it (1), or with the distance
-/// and not with its square, as what a room scatters does: a share of the direct light for each metre (0.5).
+/// and not with its square (0.5): an empirical law between that and a room's even light; its strength is the share of the direct light at one metre.
 /// A wall beside the path is as far from what all pixels see (0), or stands beyond the last columns (1), the first ones (-1), the last rows (0.5) or the
 /// first ones (-0.5), and its mirror image is the nearer the more a pixel looks that way by its angle a: √(d² + 4 L² - 4 L d sin a).
 pub static EFFECT: Effect = Effect {
@@ -33,10 +33,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     if share == 0.0 {
         return;
     }
-    let is_constant = values[2] > 0.25;
-    let falls_with_distance = is_constant && values[2] < 0.75;
-    let falls_with_square = is_constant || values[2] < -1.5;
-    let is_one_share = values[2] < -0.5;
+    let (is_constant, falls) = (values[2] > 0.25, Falls::of(values[2]));
     let nearer_m: Vec<f64> = match towards(&exposure.pixels, values[3]) {
         Some(sines) => exposure.range_m.iter().zip(sines).map(|(range_m, sine)| range_m * sine).collect(),
         None => vec![0.0; exposure.range_m.len()],
@@ -55,7 +52,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         let signals_dn: &mut [f64] = &mut exposure.signal_dn;
         let (amplitudes_dn, phases_rad) = (&mut amplitudes_dn[..], &mut phases_rad[..]);
         widest!((direct: Direct<'a>, target: &'a [bool], share: f64, wall_m: f64,
-                 is_constant: bool, falls_with_distance: bool, falls_with_square: bool, is_one_share: bool, frequency_hz: f64,
+                 is_constant: bool, falls: Falls, frequency_hz: f64,
                  signals_dn: &'a mut [f64], amplitudes_dn: &'a mut [f64], phases_rad: &'a mut [f64]) {
             let light = direct.amplitude_dn.iter().zip(direct.constant_dn);
             let ways = direct.range_m.iter().zip(direct.nearer_m).zip(direct.phase_rad).zip(target).zip(light);
@@ -66,16 +63,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
                     true => range_m + 2.0 * wall_m,
                     false => (range_m * range_m + 4.0 * wall_m * (wall_m - nearer_m)).sqrt(),
                 };
-                let part = if falls_with_distance {
-                    share * range_m
-                } else if falls_with_square {
-                    let nearer = 2.0 * range_m / (range_m + back_m);
-                    share * (nearer * nearer)
-                } else if is_one_share {
-                    share
-                } else {
-                    share * range_m / back_m
-                };
+                let part = share * fallen(*range_m, back_m, falls);
                 // Light that comes by the wall goes to the target.
                 let part = if *is_target { part } else { 0.0 };
                 *of_path = part * amplitude;
@@ -85,6 +73,41 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         });
     }
     exposure.add_path(&amplitudes_dn, &phases_rad.into());
+}
+
+/// How light by the second way falls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Falls {
+    WithTheWay,
+    WithTheSquare,
+    AsTheDirect,
+    WithTheDistance,
+}
+
+impl Falls {
+    /// By the number of the choice.
+    fn of(chosen: f64) -> Self {
+        match chosen {
+            chosen if !(-1.5..=0.75).contains(&chosen) => Self::WithTheSquare,
+            chosen if chosen > 0.25 => Self::WithTheDistance,
+            chosen if chosen < -0.5 => Self::AsTheDirect,
+            _ => Self::WithTheWay,
+        }
+    }
+}
+
+/// What light that comes back by `back_m` is of the direct light of a target at `range_m`, over its strength.
+#[inline(always)]
+fn fallen(range_m: f64, back_m: f64, falls: Falls) -> f64 {
+    match falls {
+        Falls::WithTheWay => range_m / back_m,
+        Falls::WithTheSquare => {
+            let nearer = 2.0 * range_m / (range_m + back_m);
+            nearer * nearer
+        }
+        Falls::AsTheDirect => 1.0,
+        Falls::WithTheDistance => range_m,
+    }
 }
 
 /// Of every pixel, the sine of the angle by which it looks towards a wall that stands `beside`; nothing where no side is nearer.
@@ -108,6 +131,29 @@ mod tests {
     use super::*;
     use crate::frames::Geometry;
     use crate::physics::pixels::plain;
+
+    /// By hand, of a way of 2 m back where the direct one is 1 m, and of one of 4 m where that is 3 m.
+    #[test]
+    fn light_falls_by_its_law() {
+        let of =
+            |falls: Falls| [(1.0, 2.0), (3.0, 4.0)].map(|(range_m, back_m)| fallen(range_m, back_m, falls));
+        assert_eq!(of(Falls::WithTheWay), [0.5, 0.75]);
+        assert_eq!(of(Falls::AsTheDirect), [1.0, 1.0]);
+        assert_eq!(of(Falls::WithTheDistance), [1.0, 3.0]);
+        let [near, far] = of(Falls::WithTheSquare);
+        assert!((near - 4.0 / 9.0).abs() < 1e-12 && (far - 36.0 / 49.0).abs() < 1e-12);
+        let choices = [0.0, -1.0, -2.0, 0.5, 1.0].map(Falls::of);
+        assert_eq!(
+            choices,
+            [
+                Falls::WithTheWay,
+                Falls::AsTheDirect,
+                Falls::WithTheSquare,
+                Falls::WithTheDistance,
+                Falls::WithTheSquare
+            ]
+        );
+    }
 
     /// Of three pixels, by hand: what is seen at 2 m under 30 degrees to either side is 1 m nearer to the wall, or further from it.
     #[test]

@@ -111,17 +111,20 @@ fn illumination_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
     moment.light *= (1.0 - flaw.size * share).max(0.0);
 }
 
-/// The change of ambient light in a minute; none where it begins anew with every set.
-pub fn daylight_a_minute(flaw: &Flaw) -> Option<f64> {
-    (flaw.draws[7] < 0.7).then(|| flaw.sign(0) * flaw.size)
+/// Whether a change of the ambient light begins anew with every set.
+pub fn begins_anew(flaw: &Flaw) -> bool {
+    flaw.draws[7] >= 0.7
 }
 
-/// Daylight changes steadily, by its size in a minute; or what is taken for it in every set anew, by its size in a second.
+/// Ambient light changes by its size in so long a time, s.
+pub fn ambient_drift_s(flaw: &Flaw) -> f64 {
+    if begins_anew(flaw) { 1.5 } else { 60.0 }
+}
+
+/// Daylight changes steadily, by its size in a minute; or what is taken for it in every set anew.
 fn ambient_drift(flaw: &Flaw, _: &Take, moment: &mut Moment) {
-    moment.ambient *= match daylight_a_minute(flaw) {
-        Some(change) => 1.0 + change * moment.time_s / 60.0,
-        None => (1.0 + flaw.sign(0) * flaw.size * moment.within_s).max(0.0),
-    };
+    let passed_s = if begins_anew(flaw) { moment.within_s.max(0.0) } else { moment.time_s };
+    moment.ambient *= (1.0 + flaw.sign(0) * flaw.size * passed_s / ambient_drift_s(flaw)).max(0.0);
 }
 
 /// Frequency of a flicker, Hz, and its phase at the start of a recording, rad.

@@ -6,7 +6,7 @@ mod light;
 mod outside;
 
 pub use charge::{cubic_part, is_emptied};
-pub use clock::{daylight_a_minute, flicker, light_warm_up_s, phase_warm_up_s};
+pub use clock::{ambient_drift_s, begins_anew, flicker, light_warm_up_s, phase_warm_up_s};
 pub use light::{coupled_e, coupled_rad, ringing};
 
 use super::plan::Take;
