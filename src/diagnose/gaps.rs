@@ -19,24 +19,22 @@ pub fn gaps(group: &[(f64, Sum)]) -> Vec<Gap> {
 /// A line that goes through less of a cycle within a group of samples that follow each other most closely is at rest there.
 const AT_REST: f64 = 0.25;
 
-/// Cycles by which samples with these `gaps` see a line of this frequency, Hz, go forward (or back: less than 0) within a group.
-fn forward(gaps: &[Gap], frequency: f64) -> f64 {
-    let Some(((within, count), between)) = gaps.split_first() else { return 0.0 };
-    let groups = between.iter().map(|(_, count)| count).sum::<f64>() + 1.0;
-    let turns = within * frequency;
-    count / groups * (turns - turns.round())
+/// What samples see of so many turns: what is left of whole ones.
+fn seen(turns: f64) -> f64 {
+    turns - turns.round()
 }
 
-/// The same either way.
-pub fn cycles_of_group(gaps: &[Gap], frequency: f64) -> f64 {
-    forward(gaps, frequency).abs()
+/// Cycles by which samples with these `gaps` see a line of this frequency, Hz, go forward (or back: less than 0) within a group.
+pub fn forward(gaps: &[Gap], frequency: f64) -> f64 {
+    let Some(((within, count), between)) = gaps.split_first() else { return 0.0 };
+    let groups = between.iter().map(|(_, count)| count).sum::<f64>() + 1.0;
+    count / groups * seen(within * frequency)
 }
 
 /// Cycles that samples with these `gaps` see of a line of this frequency, Hz, all added up: within groups of samples that follow each other most closely, and from
 /// group to group; of one that is nearly at rest within these, from each sample of a group to that of the next one. (What goes a little forward in each group, and
 /// back again, is a drift to all others.)
 pub fn seen_cycles(gaps: &[Gap], frequency: f64) -> f64 {
-    let seen = |turns: f64| turns - turns.round();
     let Some((_, between)) = gaps.split_first() else { return 0.0 };
     let of_group = forward(gaps, frequency);
     if !between.is_empty() && of_group.abs() < AT_REST {

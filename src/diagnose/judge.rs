@@ -20,7 +20,7 @@ use super::random::{
     may_be_of_light, new_each_time, of_name, random_effect, two_jitters, words,
 };
 use super::refused::{Refused, refused};
-use super::resting::begins_anew;
+use super::resting::goes_on;
 use super::searched::{InProportion, Searched, searched};
 use super::tolerated::{tolerated, tolerated_as_new};
 use super::vote::Names;
@@ -100,10 +100,8 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     // A random effect takes with it what is left at random.
     let is_more = |random: &RandomEffect| {
         // What a form leaves is nearly the same where the target is again, if the effect is.
-        let as_new = tolerated_as_new(&named, may_be_of_light(&end, random), &|name| {
-            let mut of_name = found.fit.pieces.iter().filter(|piece| piece.effect.name == name);
-            of_name.clone().count() > 0 && of_name.all(begins_anew)
-        });
+        let is_steady = |name: &str| !goes_on(&found.fit.pieces, name);
+        let as_new = tolerated_as_new(&named, may_be_of_light(&end, random), &is_steady);
         let new = || new_each_time(&end, random.name) - CLUSTER_NATS;
         is_beyond_forms(random.ln_bayes, tolerated(&named)) || is_beyond_forms(new(), as_new)
     };

@@ -1,6 +1,6 @@
 //! Whether a line of the ambient light is a lamp's: lamps flicker with twice the mains' frequency.
 
-use super::gaps::{Gap, cycles_of_group, gaps, seen_cycles};
+use super::gaps::{Gap, forward, gaps, seen_cycles};
 use super::lines::{CLEARLY_MORE, DRIFT_CYCLES, MAINS_DRIFT_CYCLES, Series, most_between};
 
 /// The effect that is a line in time.
@@ -46,7 +46,7 @@ impl Series {
 
     /// The same of one that goes forward in each set, and back again to the next: what drifts anew within every set may be that.
     pub fn flicker_comes_back(&self) -> bool {
-        self.has_resting(&|gaps, mains| cycles_of_group(gaps, mains) > LEAST_FORWARD)
+        self.has_resting(&|gaps, mains| forward(gaps, mains).abs() > LEAST_FORWARD)
     }
 
     /// Whether all recordings see a lamp's flicker at rest of which, with their gaps, this is true in one.

@@ -11,8 +11,13 @@ use super::pieces::Piece;
 /// Light that drifts.
 const DRIFTS: [&str; 2] = ["ambient_drift", "illumination_drift"];
 
+/// Whether what has this `name` among the `pieces` goes on from set to set, and does not begin anew with each.
+pub fn goes_on(pieces: &[Piece], name: &str) -> bool {
+    pieces.iter().any(|piece| piece.effect.name == name && !begins_anew(piece))
+}
+
 /// Whether the course of what drifts begins anew with every set.
-pub fn begins_anew(piece: &Piece) -> bool {
+fn begins_anew(piece: &Piece) -> bool {
     let numbers = piece.effect.parameters.iter().zip(&piece.values);
     numbers.filter(|(parameter, _)| parameter.name == "course").any(|(_, &course)| course < 0.0)
 }
@@ -22,9 +27,7 @@ pub fn begins_anew(piece: &Piece) -> bool {
 pub fn drop_resting(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<Named>) {
     let Some(flicker) = named.iter().position(|named| named.name == FLICKER) else { return };
     // What begins anew with every set leaves nothing that goes from set to set.
-    let goes_on =
-        |name: &str| current.pieces.iter().any(|piece| piece.effect.name == name && !begins_anew(piece));
-    let going: Vec<&str> = DRIFTS.into_iter().filter(|name| goes_on(name)).collect();
+    let going: Vec<&str> = DRIFTS.into_iter().filter(|name| goes_on(&current.pieces, name)).collect();
     let is_drift = |named: &Named| going.contains(&named.name);
     let mut pieces = current.pieces.iter().filter(|piece| piece.effect.name == FLICKER);
     if !named.iter().any(is_drift) || !pieces.all(|piece| current.series.sees_at_rest(piece.values[2])) {

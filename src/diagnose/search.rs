@@ -18,7 +18,7 @@ use super::pass::{Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates};
 use super::promised::Promised;
 use super::refined::refined;
-use super::resting::{begins_anew, drop_resting};
+use super::resting::{drop_resting, goes_on};
 use super::tolerated::tolerated;
 use super::trust::Trust;
 use super::uneven::uneven;
@@ -121,10 +121,9 @@ impl<'a> Search<'a> {
         let current = without_bounded(data, finished(data, current, noise), noise, &mut named);
         // However a drift was named, and if a flicker is not named beside it.
         let is_named = named.iter().any(|named| named.name == FLICKER);
-        let mut drifts = current.pieces.iter().filter(|piece| piece.effect.name == DRIFT);
-        let rests = match drifts.all(begins_anew) {
-            true => baseline.series.flicker_comes_back(),
-            false => baseline.series.flicker_rests(),
+        let rests = match goes_on(&current.pieces, DRIFT) {
+            true => baseline.series.flicker_rests(),
+            false => baseline.series.flicker_comes_back(),
         };
         if !is_named && Alone::of(&alone, FLICKER).is_some() && rests {
             named.iter_mut().filter(|named| named.name == DRIFT).for_each(|drift| drift.may_be(FLICKER));

@@ -47,6 +47,16 @@ type Clock = fn(&Seen) -> f64;
 /// A recording's sets: when, and what they say of a mode.
 type Take = Vec<(f64, Sum)>;
 
+/// The strongest line of a mode, by one clock.
+struct Found {
+    /// Its frequency: Hz, or cycles a set.
+    frequency: f64,
+    /// What it says among all frequencies.
+    found: Greatest,
+    /// What the recordings say.
+    takes: Vec<Take>,
+}
+
 /// The strongest swing of a mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
@@ -97,27 +107,25 @@ impl Swings {
 
     /// The strongest of each mode, with a phase of its own in each recording and of the same size in all.
     pub fn strongest(&self) -> Vec<Swing> {
-        let of_mode = |mode: usize| {
-            let in_time = self.of_mode(mode, |set| set.time_s);
-            let by_number = self.of_mode(mode, |set| set.number as f64);
-            let ln_bayes =
-                |swing: &Option<(Swing, _)>| swing.as_ref().map_or(0.0, |swing| swing.0.found.ln_bayes);
-            let clearly = ln_bayes(&by_number) > ln_bayes(&in_time) + CLEARLY_NATS;
-            let turn = by_number.filter(|_| clearly).and_then(|(swing, takes)| {
-                let sets = period_of(&takes, swing.comes).filter(|&sets| !self.settings_come_again(sets))?;
-                Some(Swing { comes: Comes::EverySets(sets), ..swing })
-            });
-            turn.or_else(|| {
-                in_time.map(|(swing, takes)| {
-                    if alternates(&takes, swing.comes) {
-                        Swing { comes: Comes::EverySets(2), ..swing }
-                    } else {
-                        swing
-                    }
-                })
-            })
-        };
-        (0..SWINGING).filter_map(of_mode).collect()
+        (0..SWINGING).filter_map(|mode| self.swing(mode)).collect()
+    }
+
+    /// That of a mode.
+    fn swing(&self, mode: usize) -> Option<Swing> {
+        let in_time = self.of_mode(mode, |set| set.time_s);
+        let by_number = self.of_mode(mode, |set| set.number as f64);
+        let ln_bayes = |line: &Option<Found>| line.as_ref().map_or(0.0, |line| line.found.ln_bayes);
+        let clearly = ln_bayes(&by_number) > ln_bayes(&in_time) + CLEARLY_NATS;
+        let swing = |comes, found| Swing { mode: MODES[mode], comes, found };
+        let period = by_number.filter(|_| clearly).and_then(|line| {
+            let sets = line.period().filter(|&sets| !self.settings_come_again(sets))?;
+            Some(swing(Comes::EverySets(sets), line.found))
+        });
+        period.or_else(|| {
+            let line = in_time?;
+            let comes = if line.alternates() { Comes::EverySets(2) } else { Comes::Hz(line.frequency) };
+            Some(swing(comes, line.found))
+        })
     }
 
     /// Whether all recordings are at the same phase offset and position again after so many `sets`: what goes with these does so with the sets' numbers.
@@ -158,8 +166,8 @@ impl Swings {
         takes.into_values().map(of_mode).collect()
     }
 
-    /// The strongest of a mode, and what its recordings say.
-    fn of_mode(&self, mode: usize, clock: Clock) -> Option<(Swing, Vec<Take>)> {
+    /// The strongest line of a mode.
+    fn of_mode(&self, mode: usize, clock: Clock) -> Option<Found> {
         let mut takes = self.takes(mode, clock);
         let longest_s = takes.iter().map(|sets| sets[sets.len() - 1].0 - sets[0].0).fold(0.0, f64::max);
         let usual_s = usual(takes.iter().flat_map(gaps).collect())?;
@@ -183,30 +191,30 @@ impl Swings {
         };
         let sizes: Vec<(f64, f64)> = takes.iter().map(size).collect();
         let found = Greatest::of(line.chi2, NUMBERS * takes.len(), CLOCKS * line.looked);
-        let swing = Swing { mode: MODES[mode], comes: Comes::Hz(line.frequency), found };
-        agree(&sizes).then_some((swing, takes))
+        agree(&sizes).then_some(Found { frequency: line.frequency, found, takes })
     }
 }
 
-/// Whether what comes again in time does so with every other set.
-fn alternates(takes: &[Take], comes: Comes) -> bool {
-    let Comes::Hz(hz) = comes else { return false };
-    takes.iter().all(|take| {
-        let off_hz = 0.5 / usual(gaps(take)).unwrap_or(f64::NAN) - hz;
-        off_hz.abs() * span(take) < ALTERNATING_CYCLES
-    })
-}
+impl Found {
+    /// Whether what comes again in time does so with every other set.
+    fn alternates(&self) -> bool {
+        self.takes.iter().all(|take| {
+            let off_hz = 0.5 / usual(gaps(take)).unwrap_or(f64::NAN) - self.frequency;
+            off_hz.abs() * span(take) < ALTERNATING_CYCLES
+        })
+    }
 
-/// The period, in sets, of what has this frequency, a set, in all recordings; nothing where it is none, or may be several.
-fn period_of(takes: &[Take], comes: Comes) -> Option<usize> {
-    let Comes::Hz(a_set) = comes else { return None };
-    let longest = takes.iter().map(span).fold(0.0, f64::max);
-    let is_near =
-        |turns: usize, sets: usize| (a_set - turns as f64 / sets as f64).abs() * longest < OFF_CYCLES;
-    let near = |sets: usize| (1..sets).any(|turns| is_coprime(turns, sets) && is_near(turns, sets));
-    let mut periods = (2..=MOST_SETS).filter(|&sets| near(sets));
-    let period = periods.next()?;
-    periods.next().is_none().then_some(period)
+    /// The period of what comes again by the sets' numbers, in sets; nothing where it is no whole one, or may be several.
+    fn period(&self) -> Option<usize> {
+        let longest = self.takes.iter().map(span).fold(0.0, f64::max);
+        let is_near = |turns: usize, sets: usize| {
+            (self.frequency - turns as f64 / sets as f64).abs() * longest < OFF_CYCLES
+        };
+        let near = |sets: usize| (1..sets).any(|turns| is_coprime(turns, sets) && is_near(turns, sets));
+        let mut periods = (2..=MOST_SETS).filter(|&sets| near(sets));
+        let period = periods.next()?;
+        periods.next().is_none().then_some(period)
+    }
 }
 
 fn is_coprime(one: usize, other: usize) -> bool {
