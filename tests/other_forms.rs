@@ -82,6 +82,22 @@ fn a_shifter_has_an_error_of_each_of_its_settings() {
     assert_eq!(parameter(&verdict, "settings_a_turn").0, 64.0);
 }
 
+/// A shifter that has only so many settings, each where it should be: how many is found, with one number, whether it takes the nearest or the last before a phase.
+#[test]
+fn a_shifter_rounds_to_the_settings_that_it_has() {
+    for (settings, down) in [(100.0, 0.0), (238.4, 1.0)] {
+        let effect = format!("phase_step_errors:rounding=1,settings_a_turn={settings},rounds_down={down}");
+        let verdict = explained("four-sweep,four-rail,wdft-sweep,wdft-motion", &effect);
+        let (rounding, sigma) = parameter(&verdict, "rounding");
+        assert!((rounding - 1.0).abs() < 4.0 * sigma && sigma < 0.05, "{rounding} +- {sigma}");
+        let found = parameter(&verdict, "settings_a_turn").0;
+        assert!((found - settings).abs() < 0.5 && parameter(&verdict, "rounds_down").0 == down, "{found}");
+        assert_eq!(verdict["effects"][0]["evidence"]["degrees_of_freedom"], 1);
+        let sentence = verdict["effects"][0]["sentence"].as_str().unwrap();
+        assert!(sentence.contains(&format!(" It has {settings:.0} a turn")), "{sentence}");
+    }
+}
+
 /// One sample in 500 is 80 DN off, whatever it shows: that is no noise of all.
 #[test]
 fn samples_that_are_hit_are_no_noise() {

@@ -64,11 +64,10 @@ fn within(effect: &Effect, parameter: &Parameter, before: f64, text: &str) -> Re
     let rounding = ROUNDING * before.abs();
     // There is no half of a bit.
     let is_whole = parameter.unit == "bit";
-    let is_choice = |value: &f64| !parameter.is_choice || parameter.shapes.contains(value);
     let fits = |value: &f64| {
         (low - rounding..=high + rounding).contains(value)
             && (!is_whole || value.fract() == 0.0)
-            && is_choice(value)
+            && parameter.may_be(*value)
     };
     text.parse().ok().filter(fits).ok_or_else(|| {
         let found = format!("{}: {} = {text}", effect.name, parameter.name);
@@ -76,7 +75,10 @@ fn within(effect: &Effect, parameter: &Parameter, before: f64, text: &str) -> Re
         let number = if is_whole { "a whole number" } else { "a number" };
         if parameter.is_choice {
             let choices: Vec<String> = parameter.shapes.iter().map(f64::to_string).collect();
-            return Problem::at("--effect", found).expected(format_args!("one of {}", choices.join(", ")));
+            let most = parameter.shapes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let beyond = if high > most { format!(", or more, up to {high}") } else { String::new() };
+            let choices = choices.join(", ");
+            return Problem::at("--effect", found).expected(format_args!("one of {choices}{beyond}"));
         }
         Problem::at("--effect", found).expected(format_args!("{number} from {low} to {high}{unit}"))
     })

@@ -79,7 +79,7 @@ mod tests {
                 let time_s = PERIOD_S * (frame + 11 * set) as f64;
                 let turns = frame as f64 / frames as f64 + take as f64 * set as f64 / 64.0;
                 let ambient = (line(time_s, turns) + noise, 1.0);
-                series.frames.push(FrameSeen { take, time_s, turns, ambient });
+                series.frames.push(FrameSeen { take, time_s, turns, ambient, ..FrameSeen::default() });
             }
         }
         series

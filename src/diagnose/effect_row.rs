@@ -10,6 +10,7 @@ use super::judge::Judgement;
 use super::lamps::FLICKER;
 use super::pieces::Piece;
 use super::random::{EXCESS_NOISE, Strength};
+use super::roundings::says;
 use crate::physics::Effect;
 use crate::recording::effect_name;
 
@@ -33,8 +34,9 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
     EffectRow {
         name: named.name,
         sentence: format!(
-            "{sentence}{}{}",
+            "{sentence}{}{}{}",
             also_seen(&images),
+            says(&judgement.fit.pieces, named.name),
             beside_included(data, &judgement.fit.pieces, named.name)
         ),
         probability,

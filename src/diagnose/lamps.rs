@@ -70,10 +70,9 @@ mod tests {
     fn a_lamp_may_go_forward_in_every_set_and_come_back() {
         let of = |frame_s: f64, set_s: f64| {
             let frame = |n: usize| FrameSeen {
-                take: 0,
                 time_s: set_s * (n / 4) as f64 + frame_s * (n % 4) as f64,
-                turns: 0.0,
                 ambient: (0.0, 1.0),
+                ..FrameSeen::default()
             };
             let series =
                 Series { frame_period_s: frame_s, frames: (0..80).map(frame).collect(), ..Series::default() };

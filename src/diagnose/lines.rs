@@ -29,6 +29,8 @@ pub struct FrameSeen {
     pub turns: f64,
     /// Of ambient light.
     pub ambient: Sum,
+    /// Of an error of the light's phase, rad.
+    pub phase: Sum,
 }
 
 /// What a set says.
@@ -84,12 +86,14 @@ impl Series {
             sum
         };
         let position = sum(&frame.position);
+        let phase = sum(&frame.phase().collect::<Vec<_>>());
         self.frame_period_s = moment.frame_period_s;
         self.frames.push(FrameSeen {
             take: whitened.take,
             time_s: moment.time_s,
             turns: (moment.step_rad + moment.offset_rad) / TAU,
             ambient: sum(&frame.ambient),
+            phase,
         });
         if moment.frame == 0 {
             self.sets.push(SetSeen {

@@ -82,6 +82,7 @@ mod ranges;
 mod refined;
 mod refused;
 mod resting;
+mod roundings;
 mod ruled_out;
 mod search;
 mod searched;

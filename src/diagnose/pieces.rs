@@ -5,6 +5,7 @@ use super::included::included_of;
 use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
 use super::refined::is_seldom;
+use super::roundings::rounded;
 use crate::physics::{Active, EFFECTS, Effect, Parameter};
 use crate::recording::BASELINE;
 
@@ -228,6 +229,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             if let Some(line) = &line {
                 variants.iter_mut().for_each(|variant| variant.begin_at(&line.own));
             }
+            variants.extend(rounded(effect, data, series));
             // A line is one of many frequencies that were looked at, whichever of them are tried.
             let of_line = |line: Found| line.looked / line.shapes.len() as f64;
             // Both of two forms at once are no further place to look at.
@@ -259,9 +261,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         let values = data.full_wells_dn().into_iter().map(missing);
         return values.map(|value| Variant { pieces: vec![piece(value)], rarity: 1.0 }).collect();
     }
-    let find = |is: &dyn Fn(&Parameter) -> bool| effect.parameters.iter().position(is);
-    let shape = find(&|parameter| parameter.is_shape() && !parameter.is_choice);
-    let choice = find(&|parameter| parameter.is_choice);
+    let shape = effect.parameters.iter().position(|parameter| parameter.is_shape() && !parameter.is_choice);
+    let choice = effect.parameters.iter().position(|parameter| parameter.is_choice);
     let values_of =
         |number: Option<usize>| number.map_or(&[0.0][..], |number| effect.parameters[number].shapes);
     let (shapes, mut choices) = (found.unwrap_or(values_of(shape)), values_of(choice));
@@ -272,7 +273,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     }
     let strengths = |instead: bool| -> Vec<usize> {
         let all = effect.parameters.iter().enumerate();
-        all.filter(|(_, p)| !p.is_shape() && p.is_instead == instead).map(|(number, _)| number).collect()
+        all.filter(|(_, p)| p.is_usual_strength(instead)).map(|(number, _)| number).collect()
     };
     let (strengths, instead) = (strengths(false), strengths(true));
     let mut variants = Vec::new();
@@ -280,8 +281,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let has_both = of_many > 0 && of_many < data.schemes().len();
     let groupings: Vec<Grouping> =
         groupings.iter().copied().filter(|by| *by != Grouping::FewFrames || has_both).collect();
-    let unlikely = UNLIKELY.iter().find(|(name, _)| *name == effect.name && !data.assumed.camera);
-    let usual = unlikely.map_or(1.0, |(_, rarity)| *rarity);
+    let usual = of_effect(&UNLIKELY, effect).filter(|_| !data.assumed.camera).unwrap_or(1.0);
     let seen_dn = if effect.name == SMOOTH.0 { data.span_dn() } else { f64::INFINITY };
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
     let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));

@@ -8,6 +8,7 @@ use super::fit::{End, Fit, WHOLE, fit_led};
 use super::noise::Noise;
 use super::overtones::{OF_CODES, is_longer};
 use super::pieces::Piece;
+use super::roundings::whole;
 use rayon::prelude::*;
 
 /// Effects, and of one of their choices what is seldom.
@@ -65,7 +66,7 @@ pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str)
     while let Some(better) = better(data, &fitted, noise, is_new) {
         fitted = better;
     }
-    fitted
+    whole(data, fitted, noise)
 }
 
 /// The best of what is one choice away from what is `fitted`, and clearly better.

@@ -25,6 +25,8 @@ pub struct Parameter {
     pub is_instead: bool,
     /// A strength that only matters where each recording has its own: off as a rule.
     pub is_of_recording: bool,
+    /// A strength of a form that is looked for by itself, as a line is: in the usual ones it is off.
+    pub is_looked_for: bool,
     /// The only frame of each set on which it acts, if it is one: recordings of fewer frames have none of it.
     pub frame: Option<usize>,
     /// How far from 0 it may be at most, in full scales; infinite where that does not matter.
@@ -50,6 +52,7 @@ impl Parameter {
             is_choice: false,
             is_instead: false,
             is_of_recording: false,
+            is_looked_for: false,
             frame: None,
             most_full_scales: f64::INFINITY,
         }
@@ -65,6 +68,12 @@ impl Parameter {
     #[must_use]
     pub const fn of_recording(self) -> Self {
         Self { is_of_recording: true, ..self }
+    }
+
+    /// The same of a form that is looked for by itself.
+    #[must_use]
+    pub const fn looked_for(self) -> Self {
+        Self { is_looked_for: true, ..self }
     }
 
     /// The same of one frame of each set.
@@ -112,6 +121,22 @@ impl Parameter {
     pub fn reach(&self, full_scale_dn: f64) -> f64 {
         let (low, high) = self.bounds_within(full_scale_dn);
         (high - self.off).max(self.off - low)
+    }
+
+    /// Whether a choice may have this value: one of its own, or one beyond them, as far as its bounds go.
+    pub fn may_be(&self, value: f64) -> bool {
+        let most = self.shapes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        !self.is_choice || self.shapes.contains(&value) || value > most
+    }
+
+    /// Whether it is off as a rule, or is a shape.
+    const fn is_not_usual(&self) -> bool {
+        self.is_shape() || self.is_instead || self.is_looked_for
+    }
+
+    /// Whether it is a strength of the usual form, or, `instead`, of the other one.
+    pub const fn is_usual_strength(&self, instead: bool) -> bool {
+        !self.is_shape() && !self.is_looked_for && self.is_instead == instead
     }
 
     /// Whether it is a shape.
@@ -238,11 +263,7 @@ impl Effect {
     /// The values of its usual size, within its bounds.
     pub fn typical(&self) -> Vec<f64> {
         let value = |p: &Parameter| {
-            if p.is_shape() || p.is_instead {
-                p.off
-            } else {
-                (p.off + p.typical).clamp(p.bounds.0, p.bounds.1)
-            }
+            if p.is_not_usual() { p.off } else { (p.off + p.typical).clamp(p.bounds.0, p.bounds.1) }
         };
         self.parameters.iter().map(value).collect()
     }
@@ -253,7 +274,7 @@ impl Effect {
         const SIGNS: [f64; 4] = [1.0, -1.0, -1.0, 1.0];
         let value = |(number, p): (usize, &Parameter)| {
             let signed = p.off + SIGNS[number % SIGNS.len()] * p.typical;
-            if p.is_shape() || p.is_instead { p.off } else { signed.clamp(p.bounds.0, p.bounds.1) }
+            if p.is_not_usual() { p.off } else { signed.clamp(p.bounds.0, p.bounds.1) }
         };
         self.parameters.iter().enumerate().map(value).collect()
     }

@@ -30,7 +30,7 @@ mod modulation_frequency_error;
 mod multi_camera_interference;
 mod multipath_interference;
 mod phase_drift;
-mod phase_step_errors;
+pub mod phase_step_errors;
 mod phase_step_scale;
 mod radial_axial_distance;
 mod response_decay;

@@ -9,9 +9,12 @@ const fn step(name: &'static str) -> Parameter {
 
 /// Error of setting 0, 1, … of the phase shifter. Its settings are spaced evenly over a turn, and a commanded phase takes the nearest
 /// (of two that are equally near, the even one); with none a turn, each frame of a set has a setting of its own, whatever its offset.
+///
+/// Or the settings are where they should be, but there are only so many: `rounding` is how much of the way from a commanded phase to the nearest of
+/// them, or, where it `rounds_down`, to the last one before it, a phase goes that was thought to be exact: 1 as a rule. They need not be whole numbers a turn then.
 pub static EFFECT: Effect = Effect {
     name: "phase_step_errors",
-    sentence: "Single settings of the phase shifter are off (PLL or delay-line quanta): whenever a phase step is used again, so is its error.",
+    sentence: "Settings of the phase shifter are off, or there are only so many (PLL or delay-line quanta): whenever a phase is used again, so is its error.",
     reference: "theta_n -> theta_n + eps_n",
     parameters: &[
         step("setting_0_rad"),
@@ -78,7 +81,12 @@ pub static EFFECT: Effect = Effect {
         step("setting_61_rad"),
         step("setting_62_rad"),
         step("setting_63_rad"),
-        Parameter::choice("settings_a_turn", "1", &[0.0, SETTINGS, MOST_SETTINGS]),
+        Parameter::strength("rounding", "1", 0.0, (-1.5, 1.5), 1.0).looked_for(),
+        Parameter {
+            bounds: (0.0, MOST_A_TURN),
+            ..Parameter::choice("settings_a_turn", "1", &[0.0, SETTINGS, MOST_SETTINGS])
+        },
+        Parameter::choice("rounds_down", "1", &[0.0, 1.0]),
     ],
     place: Place::Clock,
     chance: Chance::None,
@@ -89,26 +97,50 @@ pub static EFFECT: Effect = Effect {
 
 /// Steps of 30 degrees, or six bits of a delay line.
 const SETTINGS: f64 = 12.0;
-const MOST_SETTINGS: f64 = 64.0;
-/// Closer than this (in settings) to the middle between two settings is the middle: files round a phase offset.
+/// So many settings may have an error each.
+pub const MOST_SETTINGS: f64 = 64.0;
+/// So many settings a turn the forward model stands for: a milliradian and a half each.
+pub const MOST_A_TURN: f64 = 4096.0;
+/// Which of the parameters is the rounding: those before it are errors of single settings.
+pub const ROUNDING: usize = 64;
+/// Which of them is the number of settings a turn.
+pub const A_TURN: usize = 65;
+/// Which of them says whether phases go down.
+pub const DOWN: usize = 66;
+/// Closer than this (in settings) to the middle between two settings is the middle, and to a setting is the setting: files round a phase offset.
 const MIDDLE: f64 = 1e-6;
 
-fn setting(angle_rad: f64, settings: f64) -> usize {
-    let place = (angle_rad / TAU).rem_euclid(1.0) * settings;
-    let nearest = if (place.fract() - 0.5).abs() < MIDDLE {
+/// The setting that a phase takes, in settings, of which it is this one and a part.
+fn taken(place: f64, rounds_down: bool) -> f64 {
+    if rounds_down {
+        (place + MIDDLE).floor()
+    } else if (place - place.floor() - 0.5).abs() < MIDDLE {
         2.0 * ((place.floor() + 1.0) / 2.0).floor()
     } else {
         place.round()
-    };
-    (nearest % settings) as usize
+    }
+}
+
+/// By how many turns a commanded phase changes when it becomes one of so many `settings` a turn.
+pub fn rounded_by(turns: f64, settings: f64, rounds_down: bool) -> f64 {
+    let place = turns * settings;
+    (taken(place, rounds_down) - place) / settings
+}
+
+fn setting(angle_rad: f64, settings: f64, rounds_down: bool) -> usize {
+    (taken((angle_rad / TAU).rem_euclid(1.0) * settings, rounds_down) % settings) as usize
 }
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let settings = values[values.len() - 1].round();
+    let (settings, rounds_down) = (values[A_TURN], values[DOWN] > 0.5);
     let moment = exposure.moment;
-    let number =
-        if settings >= 1.0 { setting(moment.offset_rad + moment.step_rad, settings) } else { moment.frame };
-    exposure.angle_rad += values[..values.len() - 1].get(number).copied().unwrap_or(0.0);
+    let angle_rad = moment.offset_rad + moment.step_rad;
+    let is_of_shifter = settings >= 1.0;
+    let number = if is_of_shifter { setting(angle_rad, settings, rounds_down) } else { moment.frame };
+    exposure.angle_rad += values[..ROUNDING].get(number).copied().unwrap_or(0.0);
+    if is_of_shifter && values[ROUNDING] != 0.0 {
+        exposure.angle_rad += values[ROUNDING] * TAU * rounded_by(angle_rad / TAU, settings, rounds_down);
+    }
 }
 
 #[cfg(test)]
@@ -129,7 +161,22 @@ mod tests {
             (725.0, 0),
         ];
         for (degrees, expected) in cases {
-            assert_eq!(setting(f64::to_radians(degrees), SETTINGS), expected, "{degrees}");
+            assert_eq!(setting(f64::to_radians(degrees), SETTINGS, false), expected, "{degrees}");
         }
+    }
+
+    /// 240 settings a turn are 1.5 degrees each: what is left of a phase is at most half of that, or, where it goes down, all of it.
+    #[test]
+    fn a_phase_that_is_rounded_goes_to_a_setting() {
+        for (degrees, nearest, down) in
+            [(0.0, 0.0, 0.0), (90.0, 0.0, 0.0), (1.0, 0.5, -1.0), (7.6, -0.1, -0.1), (-0.5, 0.5, -1.0)]
+        {
+            for (rounds_down, expected) in [(false, nearest), (true, down)] {
+                let by = 360.0 * rounded_by(degrees / 360.0, 240.0, rounds_down);
+                assert!((by - expected).abs() < 1e-9, "{degrees}: {by}");
+            }
+        }
+        // Of 12 settings the 30 degrees of a file that rounds are no less than that.
+        assert!(rounded_by((30.0_f64).to_radians() / TAU - 1e-10, 12.0, true).abs() < 1e-9);
     }
 }
