@@ -67,18 +67,15 @@ fn within(effect: &Effect, parameter: &Parameter, before: f64, text: &str) -> Re
     let fits = |value: &f64| {
         (low - rounding..=high + rounding).contains(value)
             && (!is_whole || value.fract() == 0.0)
-            && parameter.may_be(*value)
+            && (!parameter.is_of_its_shapes() || parameter.shapes.contains(value))
     };
     text.parse().ok().filter(fits).ok_or_else(|| {
         let found = format!("{}: {} = {text}", effect.name, parameter.name);
         let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
         let number = if is_whole { "a whole number" } else { "a number" };
-        if parameter.is_choice {
+        if parameter.is_of_its_shapes() {
             let choices: Vec<String> = parameter.shapes.iter().map(f64::to_string).collect();
-            let most = parameter.shapes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let beyond = if high > most { format!(", or more, up to {high}") } else { String::new() };
-            let choices = choices.join(", ");
-            return Problem::at("--effect", found).expected(format_args!("one of {choices}{beyond}"));
+            return Problem::at("--effect", found).expected(format_args!("one of {}", choices.join(", ")));
         }
         Problem::at("--effect", found).expected(format_args!("{number} from {low} to {high}{unit}"))
     })

@@ -19,7 +19,7 @@ pub enum Verdict {
 
 /// Of a camera that is described so many effects were left out at most: more are what an unknown one looks like. (Campaigns of independent generators had two at most; all answers
 /// with four names were to an effect that is in no library, or to one in another form.)
-const MOST_NAMES: usize = 3;
+pub const MOST_NAMES: usize = 3;
 
 /// What the verdict depends on.
 pub struct Case<'a> {

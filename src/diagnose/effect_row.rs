@@ -10,7 +10,7 @@ use super::judge::Judgement;
 use super::lamps::FLICKER;
 use super::pieces::Piece;
 use super::random::{EXCESS_NOISE, Strength};
-use super::roundings::says;
+use super::roundings::says_of_settings;
 use crate::physics::Effect;
 use crate::recording::effect_name;
 
@@ -36,7 +36,7 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
         sentence: format!(
             "{sentence}{}{}{}",
             also_seen(&images),
-            says(&judgement.fit.pieces, named.name),
+            says_of_settings(&judgement.fit.pieces, named.name),
             beside_included(data, &judgement.fit.pieces, named.name)
         ),
         probability,

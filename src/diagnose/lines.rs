@@ -86,14 +86,14 @@ impl Series {
             sum
         };
         let position = sum(&frame.position);
-        let phase = sum(&frame.phase().collect::<Vec<_>>());
+        let phase = sum(&frame.own[1]);
         self.frame_period_s = moment.frame_period_s;
         self.frames.push(FrameSeen {
             take: whitened.take,
             time_s: moment.time_s,
             turns: (moment.step_rad + moment.offset_rad) / TAU,
             ambient: sum(&frame.ambient),
-            phase,
+            phase: (phase.0 / frame.times, phase.1 / frame.times.powi(2)),
         });
         if moment.frame == 0 {
             self.sets.push(SetSeen {

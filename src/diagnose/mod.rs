@@ -113,6 +113,7 @@ mod watchdog;
 mod waves;
 mod white;
 mod whiten;
+mod whole_rounding;
 
 pub use alone::Alone;
 pub use answer::{

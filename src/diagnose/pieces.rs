@@ -229,12 +229,12 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             if let Some(line) = &line {
                 variants.iter_mut().for_each(|variant| variant.begin_at(&line.own));
             }
-            variants.extend(rounded(effect, data, series));
             // A line is one of many frequencies that were looked at, whichever of them are tried.
             let of_line = |line: Found| line.looked / line.shapes.len() as f64;
             // Both of two forms at once are no further place to look at.
             let ways = variants.iter().filter(|variant| !variant.is_of_both_forms()).count();
             let looked = ways as f64 * line.map_or(1.0, of_line);
+            variants.extend(rounded(effect, data, series));
             Candidate { effect, looked, variants }
         })
         .collect()

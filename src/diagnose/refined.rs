@@ -8,7 +8,8 @@ use super::fit::{End, Fit, WHOLE, fit_led};
 use super::noise::Noise;
 use super::overtones::{OF_CODES, is_longer};
 use super::pieces::Piece;
-use super::roundings::whole;
+use super::roundings::OF_SHIFTER;
+use super::whole_rounding::with_whole_rounding;
 use rayon::prelude::*;
 
 /// Effects, and of one of their choices what is seldom.
@@ -66,7 +67,7 @@ pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str)
     while let Some(better) = better(data, &fitted, noise, is_new) {
         fitted = better;
     }
-    whole(data, fitted, noise)
+    if is_new(OF_SHIFTER) { with_whole_rounding(data, fitted, noise) } else { fitted }
 }
 
 /// The best of what is one choice away from what is `fitted`, and clearly better.

@@ -3,6 +3,7 @@
 use super::alias::odds_against;
 use super::alone::Alone;
 use super::completed::Completed;
+use super::conclusion::MOST_NAMES;
 use super::contest::{self, Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
@@ -108,13 +109,15 @@ impl<'a> Search<'a> {
     }
 
     fn found(mut self) -> Found {
-        let exchanges = self.named.len() > 1 && !self.baseline.is_far_from(&self.current);
-        if let Some((first, _)) = self.first.as_ref().filter(|_| exchanges) {
-            let candidates = candidates(self.data, &self.baseline.series);
-            exchange(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named);
+        // Of more names than may be there it is asked whether they are fewer before it is asked whether they are simpler, which takes long.
+        let were_many = self.are_many();
+        if were_many {
+            self.leave_needed();
         }
-        uneven(self.data, self.noise, &mut self.current, &mut self.named);
-        drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
+        let is_exchanged = !self.are_many() && self.exchange();
+        if !were_many || is_exchanged {
+            self.leave_needed();
+        }
         drop_resting(self.data, self.noise, &mut self.current, &mut self.named);
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
         let Self { data, noise, baseline, current, mut named, .. } = self;
@@ -129,6 +132,25 @@ impl<'a> Search<'a> {
             named.iter_mut().filter(|named| named.name == DRIFT).for_each(|drift| drift.may_be(FLICKER));
         }
         Found { baseline, fit: current, named, invisible, detectable, alone, simpler }
+    }
+
+    /// Whether there are more names than were left out of a camera that is described.
+    fn are_many(&self) -> bool {
+        !self.data.assumed.camera && self.named.len() > MOST_NAMES
+    }
+
+    /// Leaves what is needed beside the others, a drift in the form that it has.
+    fn leave_needed(&mut self) {
+        uneven(self.data, self.noise, &mut self.current, &mut self.named);
+        drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
+    }
+
+    /// Puts a simpler effect in the place of one that has more numbers than it needs, near the baseline; whether there was one.
+    fn exchange(&mut self) -> bool {
+        let exchanges = self.named.len() > 1 && !self.baseline.is_far_from(&self.current);
+        let Some((first, _)) = self.first.as_ref().filter(|_| exchanges) else { return false };
+        let candidates = candidates(self.data, &self.baseline.series);
+        exchange(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named)
     }
 
     /// Names what comes next, if anything does. Where that is a question of `trust`: the search without it.

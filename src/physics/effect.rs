@@ -123,10 +123,9 @@ impl Parameter {
         (high - self.off).max(self.off - low)
     }
 
-    /// Whether a choice may have this value: one of its own, or one beyond them, as far as its bounds go.
-    pub fn may_be(&self, value: f64) -> bool {
-        let most = self.shapes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        !self.is_choice || self.shapes.contains(&value) || value > most
+    /// Whether it takes no values but its own: bounds of other choices go beyond these.
+    pub fn is_of_its_shapes(&self) -> bool {
+        self.is_choice && self.shapes.iter().any(|shape| *shape >= self.bounds.1)
     }
 
     /// Whether it is off as a rule, or is a shape.

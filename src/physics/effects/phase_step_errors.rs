@@ -11,7 +11,8 @@ const fn step(name: &'static str) -> Parameter {
 /// (of two that are equally near, the even one); with none a turn, each frame of a set has a setting of its own, whatever its offset.
 ///
 /// Or the settings are where they should be, but there are only so many: `rounding` is how much of the way from a commanded phase to the nearest of
-/// them, or, where it `rounds_down`, to the last one before it, a phase goes that was thought to be exact: 1 as a rule. They need not be whole numbers a turn then.
+/// them, or, where it `rounds_down`, to the last one before it, a phase goes that was thought to be exact: 1 as a rule. They need not be a whole
+/// number a turn then, and go on over whole turns from a phase of 0, as those of a counter do.
 pub static EFFECT: Effect = Effect {
     name: "phase_step_errors",
     sentence: "Settings of the phase shifter are off, or there are only so many (PLL or delay-line quanta): whenever a phase is used again, so is its error.",
@@ -97,8 +98,7 @@ pub static EFFECT: Effect = Effect {
 
 /// Steps of 30 degrees, or six bits of a delay line.
 const SETTINGS: f64 = 12.0;
-/// So many settings may have an error each.
-pub const MOST_SETTINGS: f64 = 64.0;
+const MOST_SETTINGS: f64 = 64.0;
 /// So many settings a turn the forward model stands for: a milliradian and a half each.
 pub const MOST_A_TURN: f64 = 4096.0;
 /// Which of the parameters is the rounding: those before it are errors of single settings.
@@ -107,28 +107,29 @@ pub const ROUNDING: usize = 64;
 pub const A_TURN: usize = 65;
 /// Which of them says whether phases go down.
 pub const DOWN: usize = 66;
-/// Closer than this (in settings) to the middle between two settings is the middle, and to a setting is the setting: files round a phase offset.
-const MIDDLE: f64 = 1e-6;
+/// Closer than this, in turns, to the middle between two settings is the middle, and to a setting is the setting: files round a phase offset.
+const MIDDLE: f64 = 1e-6 / TAU;
 
-/// The setting that a phase takes, in settings, of which it is this one and a part.
-fn taken(place: f64, rounds_down: bool) -> f64 {
+/// The setting that a phase takes, in settings, of which it is this one and a part, where there are so many a turn.
+fn taken(place: f64, settings: f64, rounds_down: bool) -> f64 {
+    let middle = MIDDLE * settings;
     if rounds_down {
-        (place + MIDDLE).floor()
-    } else if (place - place.floor() - 0.5).abs() < MIDDLE {
+        (place + middle).floor()
+    } else if (place - place.floor() - 0.5).abs() < middle {
         2.0 * ((place.floor() + 1.0) / 2.0).floor()
     } else {
         place.round()
     }
 }
 
-/// By how many turns a commanded phase changes when it becomes one of so many `settings` a turn.
+/// By how many turns a commanded phase changes when it becomes one of so many `settings` a turn, which are counted on over whole turns.
 pub fn rounded_by(turns: f64, settings: f64, rounds_down: bool) -> f64 {
     let place = turns * settings;
-    (taken(place, rounds_down) - place) / settings
+    (taken(place, settings, rounds_down) - place) / settings
 }
 
 fn setting(angle_rad: f64, settings: f64, rounds_down: bool) -> usize {
-    (taken((angle_rad / TAU).rem_euclid(1.0) * settings, rounds_down) % settings) as usize
+    (taken((angle_rad / TAU).rem_euclid(1.0) * settings, settings, rounds_down) % settings) as usize
 }
 
 fn act(values: &[f64], exposure: &mut Exposure) {
@@ -176,7 +177,8 @@ mod tests {
                 assert!((by - expected).abs() < 1e-9, "{degrees}: {by}");
             }
         }
-        // Of 12 settings the 30 degrees of a file that rounds are no less than that.
-        assert!(rounded_by((30.0_f64).to_radians() / TAU - 1e-10, 12.0, true).abs() < 1e-9);
+        // Of 12 settings the 30 degrees of a file that rounds are no less than that: it stays where it is.
+        let turns = 30.0_f64.to_radians() / TAU - 0.9e-7;
+        assert!((rounded_by(turns, 12.0, true) - 0.9e-7).abs() < 1e-12);
     }
 }
