@@ -210,11 +210,11 @@ CASES = {
     "thermostat": ([add("path", "phase_rad", lambda f: 0.004 * np.sign(np.sin(TURN * f.time_s / 11.0)))], "time_s set"),
     "second-camera": (
         [add("image", "dn", lambda f: 0.8 * np.cos(TURN * 0.37 * f.time_s + f.angle_rad) * (1 + 0.3 * columns / WIDTH))],
-        "time_s frame set",
+        [{"multi_camera_interference"}],
     ),
     "shutter-late": (
         [add("clock", "time_s", lambda f: [0, 0.002, -0.001, 0.0015, -0.002][f.number])],
-        "velocity_m_s frame",
+        [{"frame_timing_error"}],
     ),
     "emitter-beside-lens": (
         [add("path", "phase_rad", lambda f: TURN * FREQUENCY_HZ / LIGHT_M_S * emitter_beside(f, 0.15))],
