@@ -19,7 +19,12 @@ pub enum Verdict {
 
 /// Of a camera that is described so many effects were left out at most: more are what an unknown one looks like. (Campaigns of independent generators had two at most; all answers
 /// with four names were to an effect that is in no library, or to one in another form.)
-pub const MOST_NAMES: usize = 3;
+const MOST_NAMES: usize = 3;
+
+/// Whether so many `names` are more than were left out of a camera, if it is described: what one unknown effect does several known ones together may imitate.
+pub fn are_many(is_described: bool, names: usize) -> bool {
+    is_described && names > MOST_NAMES
+}
 
 /// What the verdict depends on.
 pub struct Case<'a> {
@@ -85,9 +90,9 @@ impl Case<'_> {
         self.named.len() + self.at_random.0
     }
 
-    /// Whether they are more than were left out: what one unknown effect does several known ones together may imitate.
+    /// Whether they are more than were left out.
     fn are_many(&self) -> bool {
-        self.is_described && self.names() > MOST_NAMES
+        are_many(self.is_described, self.names())
     }
 
     /// What speaks against all names, in words, where none is asserted.

@@ -74,7 +74,7 @@ const LEAST_OWN: usize = 3;
 const ONE_PLACE: f64 = 0.01;
 
 /// Phases that are as near are one.
-const SAME_PHASE_RAD: f64 = 1e-6;
+pub const SAME_PHASE_RAD: f64 = 1e-6;
 
 /// What recordings show of the camera's light.
 #[derive(Debug, Clone, Copy)]

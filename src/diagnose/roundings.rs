@@ -1,6 +1,6 @@
 //! A phase shifter that has only so many settings: how many is looked for by what frames say of their phase, as the period of a line is.
 
-use super::data::Data;
+use super::data::{Data, SAME_PHASE_RAD};
 use super::included::included_of;
 use super::lines::Series;
 use super::periodogram::Sum;
@@ -25,8 +25,6 @@ pub const MOST_PHASES: usize = 400;
 const BEST: usize = 32;
 /// At no more phases the pixels' own numbers take a part of what they are off by, which nobody knows here.
 const FEW: usize = 8;
-/// Phases closer than this, in turns, are one: files round them.
-const SAME_PHASE: f64 = 1e-6 / TAU;
 
 /// What a rounding to so many settings would explain.
 #[derive(Debug, Clone, Copy)]
@@ -59,19 +57,19 @@ pub struct Phases {
 }
 
 impl Phases {
-    fn of(all: &[Commanded]) -> Self {
+    fn of(all: Vec<Commanded>) -> Self {
         let sum = |of: &dyn Fn(&Commanded) -> f64| all.iter().map(of).sum::<f64>();
         let information = sum(&|of| of.phase.1);
         let mean = if information > 0.0 { sum(&|of| of.phase.1 * of.turns) / information } else { 0.0 };
         let spread = sum(&|of| of.phase.1 * (of.turns - mean).powi(2));
         let score = (sum(&|of| of.phase.0), sum(&|of| of.phase.0 * (of.turns - mean)));
-        Self { all: all.to_vec(), information, mean, spread, score }
+        Self { all, information, mean, spread, score }
     }
 
     /// Of each recording of `all`, every so many.
     pub fn thinned(all: &[Commanded], every: usize) -> Vec<Self> {
         let takes = all.chunk_by(|a, b| a.take == b.take);
-        takes.map(|take| Self::of(&take.iter().step_by(every).copied().collect::<Vec<_>>())).collect()
+        takes.map(|take| Self::of(take.iter().step_by(every).copied().collect())).collect()
     }
 
     /// By how much chi squared is less with a rounding than without. At many phases nothing scales it, so that of the numbers of settings that round phases alike but
@@ -105,7 +103,8 @@ impl Series {
         let mut all: Vec<Commanded> =
             lit.map(|frame| Commanded { take: frame.take, turns: frame.turns, phase: frame.phase }).collect();
         all.sort_by(|a, b| a.take.cmp(&b.take).then(a.turns.total_cmp(&b.turns)));
-        let is_same = |a: &Commanded, b: &Commanded| a.take == b.take && b.turns - a.turns < SAME_PHASE;
+        let is_same =
+            |a: &Commanded, b: &Commanded| a.take == b.take && TAU * (b.turns - a.turns) < SAME_PHASE_RAD;
         let sum = |of: &[Commanded]| {
             let add = |sum: Sum, of: &Commanded| (sum.0 + of.phase.0, sum.1 + of.phase.1);
             Commanded { phase: of.iter().fold((0.0, 0.0), add), ..of[0] }
@@ -153,12 +152,18 @@ pub fn numbers(steps: f64) -> usize {
     (steps * (SETTINGS.1 - SETTINGS.0)) as usize + 1
 }
 
-/// What a sentence says besides of `pieces` that round.
+/// The settings a turn to which a `piece` rounds, and whether it rounds down; nothing where it does something else.
+pub fn settings_of(piece: &Piece) -> Option<(f64, bool)> {
+    let is_rounding = piece.effect.name == OF_SHIFTER && piece.free == [ROUNDING];
+    is_rounding.then(|| (piece.values[A_TURN], piece.values[DOWN] > 0.5))
+}
+
+/// What the sentence about the effect called `name` says besides of `pieces` that round.
 pub fn says_of_settings(pieces: &[Piece], name: &str) -> String {
-    let of = pieces.iter().filter(|piece| piece.effect.name == name && name == OF_SHIFTER);
-    let rounding = of.filter(|piece| piece.free == [ROUNDING]).map(|piece| {
-        let settings = (10.0 * piece.values[A_TURN]).round() / 10.0;
-        let down = if piece.values[DOWN] > 0.5 { ", and takes the last one before a phase" } else { "" };
+    let of = pieces.iter().filter(|piece| piece.effect.name == name);
+    let rounding = of.filter_map(settings_of).map(|(settings, rounds_down)| {
+        let settings = (10.0 * settings).round() / 10.0;
+        let down = if rounds_down { ", and takes the last one before a phase" } else { "" };
         format!(" The shifter has {settings} settings a turn, {:.2} degrees apart{down}.", 360.0 / settings)
     });
     rounding.collect()
@@ -166,7 +171,7 @@ pub fn says_of_settings(pieces: &[Piece], name: &str) -> String {
 
 /// The way in which `effect`, if it is of the phase shifter, rounds to settings, if frames say that it may.
 pub fn rounded(effect: &'static Effect, data: &Data, series: &Series) -> Option<Variant> {
-    if !std::ptr::eq(effect, &raw const EFFECT) {
+    if effect.name != OF_SHIFTER {
         return None;
     }
     // What does not pay for having been looked for is no way in which anything else may be said, either.
@@ -242,7 +247,7 @@ mod tests {
                 let phase = (-1e6 * part * TAU * rounded_by(turns, 100.0, false), 1e6);
                 Commanded { take: 0, turns, phase }
             };
-            Phases::of(&(0..5).map(of).collect::<Vec<_>>()).explained(100.0, false)
+            Phases::of((0..5).map(of).collect()).explained(100.0, false)
         };
         let whole = at(1.0);
         assert!(whole > 10.0 && at(0.0) == 0.0 && at(-0.5) == 0.0);

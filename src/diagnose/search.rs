@@ -3,7 +3,7 @@
 use super::alias::odds_against;
 use super::alone::Alone;
 use super::completed::Completed;
-use super::conclusion::MOST_NAMES;
+use super::conclusion::are_many;
 use super::contest::{self, Entrant, hopeful};
 use super::data::Data;
 use super::evidence::Model;
@@ -136,7 +136,7 @@ impl<'a> Search<'a> {
 
     /// Whether there are more names than were left out of a camera that is described.
     fn are_many(&self) -> bool {
-        !self.data.assumed.camera && self.named.len() > MOST_NAMES
+        are_many(!self.data.assumed.camera, self.named.len())
     }
 
     /// Leaves what is needed beside the others, a drift in the form that it has.

@@ -4,7 +4,7 @@ use super::alone::Alone;
 use super::answer::{Answer, Invisible, LocatedRow, NextRecording, Remainder, Smallest, rounded};
 use super::backgrounds::counts_at_hz;
 use super::bounds::is_bounded;
-use super::conclusion::{MOST_NAMES, Verdict};
+use super::conclusion::{Verdict, are_many};
 use super::covered::{covered, without_light};
 use super::data::Data;
 use super::effect_row::effect_row;
@@ -95,9 +95,10 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     let (mut fewer, baseline, mut left_out) = without_outliers(data, baseline, noise);
     let mut judgement = judge(fewer.as_ref().unwrap_or(data), baseline, noise);
     // Sets that random errors make unlike others are no outliers.
-    let is_settled = judgement.verdict == Verdict::Clean || !judgement.random.is_empty();
+    let is_random = !judgement.random.is_empty();
     // Nor do a few sets more make known what only more effects together than were left out come near.
-    let is_settled = is_settled || !data.assumed.camera && judgement.found.named.len() > MOST_NAMES;
+    let is_taken_apart = are_many(!data.assumed.camera, judgement.found.named.len());
+    let is_settled = judgement.verdict == Verdict::Clean || is_random || is_taken_apart;
     let is_explained = judgement.verdict == Verdict::Explained;
     let beside = || left_out.beside(data, &judgement.fit, noise, is_explained);
     if let Some((beside, left)) = (!is_settled).then(beside).flatten() {

@@ -5,8 +5,8 @@ use super::fit::{Fit, fit};
 use super::noise::Noise;
 use super::pass::THRESHOLD;
 use super::pieces::Piece;
-use super::roundings::{Commanded, FINER, MOST_PHASES, Phases, SETTINGS, numbers, steps};
-use crate::physics::effects::phase_step_errors::{A_TURN, DOWN, EFFECT, ROUNDING, rounded_by};
+use super::roundings::{Commanded, FINER, MOST_PHASES, Phases, SETTINGS, numbers, settings_of, steps};
+use crate::physics::effects::phase_step_errors::{A_TURN, ROUNDING, rounded_by};
 use rayon::prelude::*;
 
 /// Two roundings may be the same but for their size where, between the steps of the scan, they are so much alike, and are where they are so.
@@ -35,10 +35,9 @@ fn likeness(weights: &[f64], one: &[f64], other: &[f64]) -> (f64, f64) {
 
 /// What is `fitted` with another number of settings, which rounds these phases alike but for a factor, where that brings the rounding nearer to a whole one.
 pub fn with_whole_rounding(data: &Data, fitted: Fit, noise: Noise) -> Fit {
-    let is_rounding =
-        |piece: &&Piece| std::ptr::eq(piece.effect, &raw const EFFECT) && piece.free == [ROUNDING];
-    let Some(piece) = fitted.pieces.iter().find(is_rounding) else { return fitted };
-    let (strength, settings, down) = (piece.values[ROUNDING], piece.values[A_TURN], piece.values[DOWN] > 0.5);
+    let rounding =
+        fitted.pieces.iter().find_map(|piece| settings_of(piece).map(|of| (piece.values[ROUNDING], of)));
+    let Some((strength, (settings, down))) = rounding else { return fitted };
     let all = fitted.series.commanded();
     let Some(steps) = steps(&all) else { return fitted };
     let takes = Phases::thinned(&all, all.len().div_ceil(MOST_PHASES));
@@ -59,7 +58,7 @@ pub fn with_whole_rounding(data: &Data, fitted: Fit, noise: Noise) -> Fit {
     let with = |other: f64, factor: f64| {
         let anew = |piece: &Piece| {
             let mut piece = piece.clone();
-            if is_rounding(&&piece) {
+            if settings_of(&piece).is_some() {
                 (piece.values[ROUNDING], piece.values[A_TURN]) = (strength * factor, other);
             }
             piece

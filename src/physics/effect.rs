@@ -128,11 +128,6 @@ impl Parameter {
         self.is_choice && self.shapes.iter().any(|shape| *shape >= self.bounds.1)
     }
 
-    /// Whether it is off as a rule, or is a shape.
-    const fn is_not_usual(&self) -> bool {
-        self.is_shape() || self.is_instead || self.is_looked_for
-    }
-
     /// Whether it is a strength of the usual form, or, `instead`, of the other one.
     pub const fn is_usual_strength(&self, instead: bool) -> bool {
         !self.is_shape() && !self.is_looked_for && self.is_instead == instead
@@ -262,7 +257,7 @@ impl Effect {
     /// The values of its usual size, within its bounds.
     pub fn typical(&self) -> Vec<f64> {
         let value = |p: &Parameter| {
-            if p.is_not_usual() { p.off } else { (p.off + p.typical).clamp(p.bounds.0, p.bounds.1) }
+            if p.is_usual_strength(false) { (p.off + p.typical).clamp(p.bounds.0, p.bounds.1) } else { p.off }
         };
         self.parameters.iter().map(value).collect()
     }
@@ -273,7 +268,7 @@ impl Effect {
         const SIGNS: [f64; 4] = [1.0, -1.0, -1.0, 1.0];
         let value = |(number, p): (usize, &Parameter)| {
             let signed = p.off + SIGNS[number % SIGNS.len()] * p.typical;
-            if p.is_not_usual() { p.off } else { signed.clamp(p.bounds.0, p.bounds.1) }
+            if p.is_usual_strength(false) { signed.clamp(p.bounds.0, p.bounds.1) } else { p.off }
         };
         self.parameters.iter().enumerate().map(value).collect()
     }

@@ -102,11 +102,11 @@ const MOST_SETTINGS: f64 = 64.0;
 /// So many settings a turn the forward model stands for: a milliradian and a half each.
 pub const MOST_A_TURN: f64 = 4096.0;
 /// Which of the parameters is the rounding: those before it are errors of single settings.
-pub const ROUNDING: usize = 64;
+pub const ROUNDING: usize = MOST_SETTINGS as usize;
 /// Which of them is the number of settings a turn.
-pub const A_TURN: usize = 65;
+pub const A_TURN: usize = ROUNDING + 1;
 /// Which of them says whether phases go down.
-pub const DOWN: usize = 66;
+pub const DOWN: usize = A_TURN + 1;
 /// Closer than this, in turns, to the middle between two settings is the middle, and to a setting is the setting: files round a phase offset.
 const MIDDLE: f64 = 1e-6 / TAU;
 
