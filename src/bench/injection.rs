@@ -8,7 +8,7 @@ use crate::recording::{BASELINE, Camera, effect_name};
 /// [`Effect::example`].
 ///
 /// # Errors
-/// An unknown effect or parameter, and a value that is no number or beyond the parameter's bounds.
+/// An unknown effect or parameter, a value that is no number or beyond the parameter's bounds, and a form without what it is a form of.
 pub fn injection(text: &str) -> Result<Active> {
     injection_among(text, &[])
 }
@@ -42,7 +42,26 @@ fn injection_beside(text: &str, library: &[&'static Effect], included: &[Active]
         let before = Active::in_all(included, effect, number);
         values[number] = within(effect, &effect.parameters[number], before, value)?;
     }
+    is_of_something(effect, &values)?;
     Ok(Active { effect, values })
+}
+
+/// That a form which is looked for by itself has what it is a form of: settings to round to.
+fn is_of_something(effect: &Effect, values: &[f64]) -> Result<()> {
+    let numbers = || effect.parameters.iter().zip(values);
+    let Some((form, _)) =
+        numbers().find(|(parameter, value)| parameter.is_looked_for && **value != parameter.off)
+    else {
+        return Ok(());
+    };
+    match numbers().find(|(parameter, _)| parameter.is_choice) {
+        Some((of, value)) if *value < 1.0 => {
+            let found = format!("{}: {} with {} = {value}", effect.name, form.name, of.name);
+            let expected = format!("{} from 1 to {}: it changes nothing with less", of.name, of.bounds.1);
+            Err(Problem::at("--effect", found).expected(expected))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn place(effect: &Effect, parameter: &str) -> Result<usize> {
@@ -143,6 +162,10 @@ mod tests {
                 "last_step_before_first = -2.5\n  expected: one of 0, -1, -2, -3, -4, 1",
             ),
             ("image_lag:share", "parameter=value"),
+            (
+                "phase_step_errors:rounding=1",
+                "rounding with settings_a_turn = 0\n  expected: settings_a_turn from 1 to 4096",
+            ),
         ] {
             let refusal = injection(text).unwrap_err().to_string();
             assert!(refusal.contains(words), "{refusal}");
