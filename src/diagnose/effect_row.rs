@@ -8,6 +8,7 @@ use super::found::Named;
 use super::images::{Image, also_seen, images, spread};
 use super::judge::Judgement;
 use super::lamps::FLICKER;
+use super::other_choices;
 use super::pieces::Piece;
 use super::random::{EXCESS_NOISE, Strength};
 use super::roundings::says_of_settings;
@@ -85,11 +86,12 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) 
     let mut rows = Vec::new();
     for (number, piece) in fit.pieces.iter().enumerate().filter(|(_, piece)| of(piece)) {
         let takes: Vec<&str> = piece.takes.iter().map(|&take| data.takes[take].name.as_str()).collect();
+        let of_choices = other_choices::spread(data, fit, judgement.noise, number);
         let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
         for (parameter, known) in piece.effect.parameters.iter().enumerate() {
             let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
             let sigma = column.map_or(0.0, |column| fit.sigma(column));
-            let sigma = sigma.hypot(spread(images, fit, number, parameter));
+            let sigma = sigma.hypot(spread(images, fit, number, parameter)).hypot(of_choices[parameter]);
             let value = piece.values[parameter];
             let in_all = piece.in_all(parameter);
             let at_bound = column.is_some() && is_at_bound(known, in_all, fit.pixels.full_scale_dn);

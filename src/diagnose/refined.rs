@@ -24,7 +24,7 @@ const SIDE: &str = "wall_beside";
 /// A form over the codes repeats among the signals so often at least.
 const REPEATS: f64 = 2.0;
 /// Among the ways of an effect, the number of that in which it is.
-const UNCHANGED: usize = 0;
+pub const UNCHANGED: usize = 0;
 /// Number of the form of a wave over the codes.
 const FORM: usize = 3;
 
@@ -76,16 +76,29 @@ fn better(data: &Data, fitted: &Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool
     // A jump that no signal shows again is a step, which repeats nowhere.
     let is_once = |piece: &Piece| is_longer(data, piece, REPEATS) && piece.values[FORM] != 0.0;
     let may_repeat = |way: &Entrant| way.block == UNCHANGED || !way.pieces.iter().any(is_once);
-    let hopeful =
-        |name| hopeful(data, fitted, ways(fitted, name).into_iter().filter(may_repeat).collect(), noise);
+    let ways = |name| ways(fitted, name).into_iter().filter(may_repeat).collect();
     let there = [OF_CODES, OF_WALLS].into_iter().filter(|name| is_new(name));
-    let tried: Vec<Entrant> = there.flat_map(hopeful).filter(|entrant| entrant.block != UNCHANGED).collect();
+    let is_better = |fit: &Fit| !fit.pieces.iter().any(is_once);
+    best_below(data, fitted, there.map(ways).collect(), noise, most, &is_better)
+}
+
+/// Of the `ways` of effects, of which the first is each as it is `fitted`, the best fit that `may_be` and costs less than so many nats, if there is one. They are fitted to a part of the
+/// sets first.
+pub fn best_below(
+    data: &Data,
+    fitted: &Fit,
+    ways: Vec<Vec<Entrant>>,
+    noise: Noise,
+    most: f64,
+    may_be: &dyn Fn(&Fit) -> bool,
+) -> Option<Fit> {
+    let hopeful = ways.into_iter().flat_map(|ways| hopeful(data, fitted, ways, noise));
+    let tried: Vec<Entrant> = hopeful.filter(|entrant| entrant.block != UNCHANGED).collect();
     let end = End { most, ..WHOLE };
     let of = |Entrant { pieces, led, .. }: Entrant| fit_led(data, fitted, pieces, led, noise, end);
     let fits: Vec<Fit> = tried.into_par_iter().map(of).collect();
     // One that is no number is none.
-    let is_better = |fit: &Fit| fit.cost() < most && !fit.pieces.iter().any(is_once);
-    let better = fits.into_iter().filter(is_better);
+    let better = fits.into_iter().filter(|fit| fit.cost() < most && may_be(fit));
     better.min_by(|a, b| a.cost().total_cmp(&b.cost())).map(|best| finished(data, best, noise))
 }
 

@@ -2,6 +2,7 @@
 
 use super::alias::odds_against;
 use super::alone::Alone;
+use super::chosen_anew::chosen_anew;
 use super::completed::Completed;
 use super::conclusion::are_many;
 use super::contest::{self, Entrant, hopeful};
@@ -11,6 +12,7 @@ use super::exchange::exchange;
 use super::finished::finished;
 use super::fit::{Fit, fit};
 use super::found::{Found, Named};
+use super::in_common::in_common;
 use super::lamps::FLICKER;
 use super::needless::{drop_needless, without_bounded};
 use super::noise::Noise;
@@ -109,6 +111,7 @@ impl<'a> Search<'a> {
     }
 
     fn found(mut self) -> Found {
+        in_common(self.data, self.noise, &mut self.current, &mut self.named);
         // Of more names than may be there it is asked whether they are fewer before it is asked whether they are simpler, which takes long.
         let were_many = self.are_many();
         if were_many {
@@ -119,6 +122,9 @@ impl<'a> Search<'a> {
             self.leave_needed();
         }
         drop_resting(self.data, self.noise, &mut self.current, &mut self.named);
+        if !self.are_many() {
+            self.choose_anew();
+        }
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
         let Self { data, noise, baseline, current, mut named, .. } = self;
         let current = without_bounded(data, finished(data, current, noise), noise, &mut named);
@@ -151,6 +157,14 @@ impl<'a> Search<'a> {
         let Some((first, _)) = self.first.as_ref().filter(|_| exchanges) else { return false };
         let candidates = candidates(self.data, &self.baseline.series);
         exchange(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named)
+    }
+
+    /// Gives each of several effects the shape that fits best beside the others, and drifts one time constant where recordings need none of their own.
+    fn choose_anew(&mut self) {
+        let Some((first, _)) = self.first.as_ref().filter(|_| self.named.len() > 1) else { return };
+        let candidates = candidates(self.data, &self.baseline.series);
+        chosen_anew(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named);
+        in_common(self.data, self.noise, &mut self.current, &mut self.named);
     }
 
     /// Names what comes next, if anything does. Where that is a question of `trust`: the search without it.
