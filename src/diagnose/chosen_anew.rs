@@ -30,9 +30,6 @@ pub fn chosen_anew(
         let at_bounds = bounded(current);
         let is_within = |fit: &Fit| bounded(fit).is_subset(&at_bounds);
         let most = current.cost() - RIVAL_NATS;
-        if ways.len() < 2 {
-            continue;
-        }
         if let Some(better) = best_below(data, current, vec![ways], noise, most, &is_within) {
             named.ln_bayes += 0.5 * (current.chi2 - better.chi2);
             named.score.0 = (named.score.0 + current.counted() - better.counted()).max(0.0);

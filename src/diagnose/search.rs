@@ -112,18 +112,20 @@ impl<'a> Search<'a> {
 
     fn found(mut self) -> Found {
         in_common(self.data, self.noise, &mut self.current, &mut self.named);
+        let series = &self.baseline.series;
+        let candidates = if self.named.len() > 1 { candidates(self.data, series) } else { Vec::new() };
         // Of more names than may be there it is asked whether they are fewer before it is asked whether they are simpler, which takes long.
         let were_many = self.are_many();
         if were_many {
             self.leave_needed();
         }
-        let is_exchanged = !self.are_many() && self.exchange();
+        let is_exchanged = !self.are_many() && self.exchange(&candidates);
         if !were_many || is_exchanged {
             self.leave_needed();
         }
         drop_resting(self.data, self.noise, &mut self.current, &mut self.named);
         if !self.are_many() {
-            self.choose_anew();
+            self.choose_anew(&candidates);
         }
         let (Pass { invisible, detectable, simpler, .. }, alone) = self.first.unwrap_or_default();
         let Self { data, noise, baseline, current, mut named, .. } = self;
@@ -152,18 +154,16 @@ impl<'a> Search<'a> {
     }
 
     /// Puts a simpler effect in the place of one that has more numbers than it needs, near the baseline; whether there was one.
-    fn exchange(&mut self) -> bool {
+    fn exchange(&mut self, candidates: &[Candidate]) -> bool {
         let exchanges = self.named.len() > 1 && !self.baseline.is_far_from(&self.current);
         let Some((first, _)) = self.first.as_ref().filter(|_| exchanges) else { return false };
-        let candidates = candidates(self.data, &self.baseline.series);
-        exchange(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named)
+        exchange(self.data, self.noise, (first, candidates), &mut self.current, &mut self.named)
     }
 
     /// Gives each of several effects the shape that fits best beside the others, and drifts one time constant where recordings need none of their own.
-    fn choose_anew(&mut self) {
+    fn choose_anew(&mut self, candidates: &[Candidate]) {
         let Some((first, _)) = self.first.as_ref().filter(|_| self.named.len() > 1) else { return };
-        let candidates = candidates(self.data, &self.baseline.series);
-        chosen_anew(self.data, self.noise, (first, &candidates), &mut self.current, &mut self.named);
+        chosen_anew(self.data, self.noise, (first, candidates), &mut self.current, &mut self.named);
         in_common(self.data, self.noise, &mut self.current, &mut self.named);
     }
 
