@@ -193,6 +193,20 @@ fn a_bit_of_a_wrong_weight_is_the_converters_and_so_is_a_stage_of_a_wrong_gain()
     }
 }
 
+/// Weights of several bits that are off at once, each by its own amount, are neither a wave nor a response.
+#[test]
+fn bits_of_wrong_weights_are_told_one_by_one() {
+    let verdict =
+        explained("four-rail,wdft-rail", "adc_nonlinearity:bit_3_dn=-0.9,bit_4_dn=0.7,bit_5_dn=-0.6");
+    // Of the first ones a response does nearly the same.
+    for (name, truth, known_to) in
+        [("bit_3_dn", -0.9, 1.0), ("bit_4_dn", 0.7, 0.5), ("bit_5_dn", -0.6, 0.2), ("bit_6_dn", 0.0, 0.1)]
+    {
+        let (value, sigma) = parameter(&verdict, name);
+        assert!((value - truth).abs() < 4.0 * sigma && sigma < known_to, "{name}: {value} +- {sigma}");
+    }
+}
+
 /// Light that fades unevenly, of a target on a rail that does not move: no drift of all light alike beside emitters that are far aside. (Without frames of no light its
 /// constant part is not told from ambient light, which does not fade.)
 #[test]

@@ -1,4 +1,5 @@
-//! `vuris diagnose` where the frames are right and what is written beside them is not: frames that follow each other more slowly than is recorded, another focal length.
+//! `vuris diagnose` where the frames are right and what is written beside them is not: frames that follow each other more slowly than is recorded, another focal length, an
+//! encoder that is read late or has play.
 
 mod diagnosed;
 mod rewritten;
@@ -42,4 +43,26 @@ fn another_focal_length_is_a_bowl_that_grows_with_the_distance() {
     // Near the axis the bowl is as deep as the focal length's square is small: 1.44 times, and a little less further out.
     let (value, sigma) = parameter(&verdict, "relative");
     assert!((value - 0.42).abs() < 0.03 && sigma < 0.03, "{value} +- {sigma}");
+}
+
+/// Weak enough for what frames and rows are late by to say about as much, by more numbers: places that are off by the velocity, or by its sign, are no time of frames, which
+/// are late from the second one on, and no rows. No library has them.
+#[test]
+fn a_place_that_is_read_late_is_no_time_of_frames() {
+    let late = |velocity_m_s: f64| 6e-4 * velocity_m_s;
+    let play = |velocity_m_s: f64| 6e-4 * velocity_m_s.signum() * f64::from(velocity_m_s != 0.0);
+    for (off_m, shape) in [(&late as &dyn Fn(f64) -> f64, "linear in velocity"), (&play, "direction")] {
+        let verdict = verdict_of("four-motion,four-rail,wdft-motion", |campaign| {
+            rewrite_recordings(campaign, |_, recording| {
+                recording.sets.iter_mut().for_each(|set| {
+                    set.position_m = set.position_m.map(|position_m| position_m + off_m(set.velocity_m_s));
+                });
+            });
+        });
+        assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+        assert!(names(&verdict).is_empty(), "{verdict:#}");
+        let located = &verdict["located"][0];
+        assert_eq!(located["coordinate"], "velocity_m_s", "{verdict:#}");
+        assert!(located["shape"].as_str().unwrap().contains(shape), "{verdict:#}");
+    }
 }

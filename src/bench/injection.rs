@@ -55,7 +55,7 @@ fn is_of_something(effect: &Effect, values: &[f64]) -> Result<()> {
         return Ok(());
     };
     match numbers().find(|(parameter, _)| parameter.is_choice) {
-        Some((of, value)) if *value < 1.0 => {
+        Some((of, value)) if *value < 1.0 && of.bounds.1 > 1.0 => {
             let found = format!("{}: {} with {} = {value}", effect.name, form.name, of.name);
             let expected = format!("{} from 1 to {}: it changes nothing with less", of.name, of.bounds.1);
             Err(Problem::at("--effect", found).expected(expected))

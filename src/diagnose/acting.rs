@@ -40,7 +40,7 @@ impl Acting {
         self.share(column, pattern, 1.0);
     }
 
-    /// A column that has a share of a pattern, the last one or a further one.
+    /// A column that has a share of a pattern, the last one or a further one: columns come in their order.
     pub fn share(&mut self, column: usize, pattern: usize, factor: f64) {
         self.shares.push(Share { column, pattern, factor });
     }

@@ -7,6 +7,7 @@ use super::data::Data;
 use super::gram::Whitened;
 use super::jitters::{Frame, Jitters};
 use super::periodogram::Sum;
+use super::ripples::Ripples;
 use super::shared_variance::SharedVariance;
 use super::swings::{Seen, Swing, Swings};
 use super::tamed::tamed;
@@ -114,6 +115,8 @@ pub struct Clusters {
     waves: [Waves; LINES.len()],
     /// Sets in time.
     swings: Swings,
+    /// Frames over the place.
+    pub ripples: Ripples,
     /// Frames' errors of phase and time together.
     pub jitters: Jitters,
 }
@@ -168,6 +171,7 @@ impl Clusters {
                     sums[place].1 += value * value;
                 }
             }
+            self.ripples.add(mode, whitened.take, [moment.commanded_m(), moment.position_m], sums[0][0]);
             if mode != POSITION {
                 self.set[mode].0 += sums[0][0].0;
                 self.set[mode].1 += sums[0][0].1;
@@ -232,6 +236,7 @@ impl Clusters {
         let [more_rows, more_columns] = other.waves;
         self.waves = [rows.and(more_rows), columns.and(more_columns)];
         self.swings = self.swings.and(other.swings);
+        self.ripples = self.ripples.and(other.ripples);
         self.jitters = self.jitters.and(other.jitters);
         self
     }

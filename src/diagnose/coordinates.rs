@@ -6,6 +6,7 @@ use super::acting::Acting;
 use super::columns::Frame;
 use super::neighbours::{NEIGHBOURS, neighbours};
 use super::ranges::Ranges;
+use super::velocities;
 use crate::physics::{Moment, Pixels, cos_sin, ln};
 use crate::units::phase_rad;
 use crate::widest::widest;
@@ -65,7 +66,7 @@ fn contrast(view: &View) -> Vec<f64> {
 }
 
 /// Columns of all modes, for functions of the frame alone: `(number of the function, its value)`, in order.
-fn by_frame(view: &View, of: usize, functions: &[(usize, f64)]) -> Acting {
+pub fn by_frame(view: &View, of: usize, functions: &[(usize, f64)]) -> Acting {
     by_frame_after(Acting::default(), 0, view, of, functions)
 }
 
@@ -108,7 +109,7 @@ pub fn each(columns: Vec<Vec<f64>>) -> Acting {
     acting
 }
 
-fn mode_shape(of: usize, column: usize, what: impl Fn(usize) -> String) -> String {
+pub fn mode_shape(of: usize, column: usize, what: impl Fn(usize) -> String) -> String {
     format!("{}, {}", MODES[column / of], what(column % of))
 }
 
@@ -141,13 +142,8 @@ const OFFSET_CYCLES: usize = 4;
 const OF_OFFSET: usize = 2 * OFFSET_CYCLES;
 /// Functions of the phase offset that are less are zero: offsets are written with six digits.
 const LEAST_OF_OFFSET: f64 = 1e-5;
-const RUN_WAYS: [&str; 5] = [
-    "linear in velocity",
-    "with speed",
-    "with its square",
-    "linear in velocity and frame",
-    "with speed and frame",
-];
+/// How lines differ.
+pub const LINE_WAYS: [&str; 3] = ["slope", "bow", "every other line"];
 /// A pixel's row or column matters to its own numbers only by something that changes from frame to frame.
 const CHANGES: [&str; 4] = ["with velocity", "with the frame of a set", "with distance", "with time"];
 
@@ -172,16 +168,9 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "velocity_m_s",
-        columns: |_| MODES.len() * RUN_WAYS.len(),
-        fill: |view| {
-            let moment = view.moment;
-            let velocity = moment.velocity_m_s / view.ranges.speed_m_s.max(1e-9);
-            let speed = velocity.abs();
-            let frame = centred(moment);
-            let functions = [velocity, speed, speed * speed, velocity * frame, speed * frame];
-            by_frame(view, RUN_WAYS.len(), &functions.into_iter().enumerate().collect::<Vec<_>>())
-        },
-        shape: |_, column| mode_shape(RUN_WAYS.len(), column, |n| RUN_WAYS[n].to_owned()),
+        columns: |_| velocities::COLUMNS,
+        fill: velocities::fill,
+        shape: |_, column| velocities::shape(column),
     },
     Coordinate {
         name: "frame",
@@ -214,7 +203,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "row",
-        columns: |_| MODES.len() * 2 * CHANGES.len(),
+        columns: |_| MODES.len() * LINE_WAYS.len() * CHANGES.len(),
         fill: |view| {
             by_line(view, view.ranges.geometry.height, |pixel| view.ranges.geometry.row_column(pixel).0)
         },
@@ -222,7 +211,7 @@ pub const COORDINATES: [Coordinate; 11] = [
     },
     Coordinate {
         name: "column",
-        columns: |_| MODES.len() * 2 * CHANGES.len(),
+        columns: |_| MODES.len() * LINE_WAYS.len() * CHANGES.len(),
         fill: |view| {
             by_line(view, view.ranges.geometry.width, |pixel| view.ranges.geometry.row_column(pixel).1)
         },
@@ -266,7 +255,7 @@ pub const COORDINATES: [Coordinate; 11] = [
 ];
 
 /// A frame's place in its set, -1 … 1.
-fn centred(moment: &Moment) -> f64 {
+pub fn centred(moment: &Moment) -> f64 {
     along(moment.frame, moment.frames)
 }
 
@@ -341,15 +330,28 @@ fn by_line(view: &View, lines: usize, line: impl Fn(usize) -> usize) -> Acting {
         2.0 * within(moment.position_m, view.ranges.position_m) - 1.0,
         2.0 * moment.time_s / view.ranges.duration_s[view.take].max(1e-9) - 1.0,
     ];
-    let places: Vec<f64> = (0..view.frame.base.len()).map(|pixel| along(line(pixel), lines)).collect();
+    // A slope, a bow, and amplifiers that take turns, of which one may have more of the target, or of the background: what all of these do is none of either.
+    let (target, turn) =
+        (&view.pixels.target, |index: usize| if index.is_multiple_of(2) { 1.0 } else { -1.0 });
+    let means = [false, true].map(|is_target| {
+        let here = (0..view.frame.base.len()).filter(|&pixel| target[pixel] == is_target);
+        let (sum, count) = here.fold((0.0, 0.0), |of, pixel| (of.0 + turn(line(pixel)), of.1 + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
+    });
+    let ways = |pixel: usize| {
+        let x = along(line(pixel), lines);
+        let turn = turn(line(pixel)) - means[usize::from(target[pixel])];
+        [x, x * x - 1.0 / 3.0, if view.ranges.alternates && lines > 1 { turn } else { 0.0 }]
+    };
+    let places: Vec<[f64; LINE_WAYS.len()]> = (0..view.frame.base.len()).map(ways).collect();
     let mut columns = Acting::default();
     for number in 0..MODES.len() {
         let base = mode(view, number);
-        let pattern = |shape: fn(f64) -> f64| base.iter().zip(&places).map(|(b, &x)| b * shape(x)).collect();
-        let patterns = [|x| x, |x| x * x - 1.0 / 3.0].map(|shape| columns.pattern(pattern(shape)));
+        let pattern = |way: usize| base.iter().zip(&places).map(|(b, ways)| b * ways[way]).collect();
+        let patterns: [_; LINE_WAYS.len()] = std::array::from_fn(|way| columns.pattern(pattern(way)));
         for (n, &change) in changes.iter().enumerate() {
-            for (bow, &pattern) in patterns.iter().enumerate() {
-                columns.share(2 * (number * CHANGES.len() + n) + bow, pattern, change);
+            for (way, &pattern) in patterns.iter().enumerate() {
+                columns.share(LINE_WAYS.len() * (number * CHANGES.len() + n) + way, pattern, change);
             }
         }
     }
@@ -357,7 +359,8 @@ fn by_line(view: &View, lines: usize, line: impl Fn(usize) -> usize) -> Acting {
 }
 
 fn line_shape(_: &Ranges, column: usize) -> String {
-    mode_shape(2 * CHANGES.len(), column, |n| format!("{} {}", ["slope", "bow"][n % 2], CHANGES[n / 2]))
+    let of = LINE_WAYS.len();
+    mode_shape(of * CHANGES.len(), column, |n| format!("{} {}", LINE_WAYS[n % of], CHANGES[n / of]))
 }
 
 /// Periods of patterns in the code, DN.

@@ -95,7 +95,9 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) 
             let value = piece.values[parameter];
             let in_all = piece.in_all(parameter);
             let at_bound = column.is_some() && is_at_bound(known, in_all, fit.pixels.full_scale_dn);
-            if column.is_none() && !known.is_shape() {
+            // Nor is a shape said of what has none.
+            let says = known.is_choice || known.is_shape() && piece.has_shapes();
+            if column.is_none() && !says {
                 continue;
             }
             rows.push(ParameterRow {

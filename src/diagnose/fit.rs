@@ -366,7 +366,8 @@ impl Round {
 fn free_shapes(pieces: &mut [Piece]) {
     for piece in pieces {
         let parameters = piece.effect.parameters;
-        let there = parameters.iter().zip(&piece.values).any(|(p, &value)| !p.is_shape() && value != p.off);
+        // What is looked for by itself has no shape.
+        let there = parameters.iter().zip(&piece.values).any(|(p, &value)| p.has_shapes() && value != p.off);
         for (number, parameter) in parameters.iter().enumerate() {
             if there && parameter.is_shape() && !parameter.is_choice && !piece.free.contains(&number) {
                 piece.free.push(number);

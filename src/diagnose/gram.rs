@@ -235,8 +235,8 @@ impl Gram {
         }
     }
 
-    /// The normal equations of each pixel's own numbers, solved, and what these leave of the sets' errors.
-    fn solved(&self) -> Solved {
+    /// The normal equations of each pixel's own numbers, solved.
+    pub fn inverses(&self) -> Vec<Matrix4<f64>> {
         let of = |pixel: usize| {
             let mut own = Matrix4::zeros();
             for (sums, (a, b)) in self.own.iter().zip(PAIRS) {
@@ -245,8 +245,13 @@ impl Gram {
             }
             inverse(&own)
         };
-        let pixels = self.own[0].len();
-        let inverses: Vec<Matrix4<f64>> = (0..pixels).into_par_iter().map(of).collect();
+        (0..self.own[0].len()).into_par_iter().map(of).collect()
+    }
+
+    /// The same, and what these leave of the sets' errors.
+    fn solved(&self) -> Solved {
+        let inverses = self.inverses();
+        let pixels = inverses.len();
         let phases = |pixel: usize| Vector4::from(PHASES.map(|pair| self.own[pair][pixel]));
         let common = || CommonPhase::of(&(0..pixels).map(phases).collect::<Vec<_>>(), &inverses);
         let common = (self.jitter != [0.0; 2]).then(common).flatten();
@@ -267,6 +272,12 @@ impl Gram {
     pub fn project_all(&self, jitter_m2: f64) -> Vec<Projected> {
         let solved = self.solved();
         self.blocks.par_iter().map(|block| self.project_block(block, &solved, Some(jitter_m2))).collect()
+    }
+
+    /// The same for one block, at any variance of the readings.
+    pub fn at_variances(&self, block: usize) -> impl Fn(f64) -> Projected {
+        let solved = self.solved();
+        move |jitter_m2| self.project_block(&self.blocks[block], &solved, Some(jitter_m2))
     }
 
     fn project_block<'a>(

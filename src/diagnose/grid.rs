@@ -11,7 +11,8 @@ const MOST_SAMPLES: usize = 5_000_000;
 /// A sensor, and the pixels of it that are looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Grid {
-    sensor: Geometry,
+    /// The sensor.
+    pub sensor: Geometry,
     /// Every so many rows and columns; 1 where there are no gaps.
     pub every: usize,
     /// Row and column of the first one.

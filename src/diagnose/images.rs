@@ -4,6 +4,7 @@ use super::data::Data;
 use super::fit::Fit;
 use super::lamps::{FLICKER, FLICKER_HZ, is_mains};
 use crate::physics::cos_sin;
+use crate::physics::effects::ambient_flicker::FREQUENCY;
 use nalgebra::{Matrix3, Vector2};
 use std::f64::consts::TAU;
 
@@ -14,6 +15,9 @@ const STATED: usize = 3;
 
 /// Numbers of a line: those of its cosine and its sine, and its frequency, Hz.
 type Line = [f64; 3];
+
+/// Which numbers of the effect these are.
+const NUMBERS: [usize; 3] = [0, 1, FREQUENCY];
 
 /// What a line may be instead.
 #[derive(Debug, Clone)]
@@ -93,7 +97,8 @@ pub fn spread(images: &[Image], fit: &Fit, piece: usize, parameter: usize) -> f6
     let all: f64 = 1.0 + images.iter().map(|image| image.odds).sum::<f64>();
     let square = |image: &Image| {
         let line = image.lines.iter().find(|line| line.0 == piece)?.1;
-        Some(image.odds * (line.get(parameter)? - fit.pieces[piece].values[parameter]).powi(2))
+        let place = NUMBERS.iter().position(|number| *number == parameter)?;
+        Some(image.odds * (line[place] - fit.pieces[piece].values[parameter]).powi(2))
     };
     (images.iter().filter_map(square).sum::<f64>() / all).sqrt()
 }
@@ -113,11 +118,11 @@ impl Seen {
     /// Of a piece of the fit, if that is a line.
     fn of(data: &Data, fit: &Fit, number: usize) -> Option<Self> {
         let piece = fit.pieces.get(number).filter(|piece| piece.effect.name == FLICKER)?;
-        let line = Line::try_from(piece.values.get(..3)?).ok()?;
+        let line = NUMBERS.map(|number| piece.values[number]);
         let column =
             |parameter: usize| fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
         // Of a line that is held somewhere nothing is known.
-        let columns = [column(0)?, column(1)?, column(2)?];
+        let columns = [column(NUMBERS[0])?, column(NUMBERS[1])?, column(NUMBERS[2])?];
         let covariance = Matrix3::from_fn(|a, b| fit.covariance[(columns[a], columns[b])]);
         let information = covariance.try_inverse()?;
         // With the frequency as it is.

@@ -11,10 +11,14 @@ use super::gram::{Gram, Whitened};
 use super::jitters::Jitters;
 use super::noise::Noise;
 use super::parts::parts;
+use super::patches::Patches;
 use super::profiles::{Profile, Profiles};
 use super::projected::Projected;
 use super::ranges::Ranges;
+use super::read_anew::explained;
+use super::ripples::Ripple;
 use super::swings::{Comes, Swing};
+use super::velocities::is_of_place;
 
 /// Evidence (nats) from which on a coordinate counts as located.
 pub const LOCATED_NATS: f64 = 4.0;
@@ -32,6 +36,21 @@ pub struct Located {
     pub chi2: (f64, usize),
     /// Of waves, how many were looked at, and these over what the recordings themselves show of the noise; 1 of columns.
     pub looked: f64,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What stands out in a coordinate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Columns.
+    Columns,
+    /// One column, of a target that is not where it is said to be.
+    Place,
+    /// A line or a wave, over what noise there is.
+    Wave,
+    /// A patch of pixels.
+    Patch,
 }
 
 /// What the coordinates say of a fit.
@@ -54,12 +73,12 @@ pub struct Location {
 }
 
 /// What is seen frame by frame.
-type Seen = (Clusters, Profiles, Codes);
+type Seen = (Clusters, Profiles, Codes, Patches);
 
 impl Located {
     /// A wave, the strongest of those that were looked at.
     fn wave(coordinate: &'static str, shape: String, Greatest { ln_bayes, chi2, looked }: Greatest) -> Self {
-        Self { coordinate, shape, ln_bayes, chi2, looked }
+        Self { coordinate, shape, ln_bayes, chi2, looked, kind: Kind::Wave }
     }
 }
 
@@ -75,27 +94,35 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let view = View { moment, take, frame, pixels: &base.pixels, ranges: &ranges };
         coordinates.iter().map(|coordinate| (coordinate.fill)(&view)).collect()
     };
-    let visit = |(clusters, profiles, codes): Seen, whitened: &Whitened| {
+    let visit = |(clusters, profiles, codes, patches): Seen, whitened: &Whitened| {
         (
             clusters.with(data, whitened),
             profiles.with(data, &ranges, base, whitened),
             codes.with(whitened, base.pixels.pedestal_dn),
+            patches.with(data, whitened),
         )
     };
-    let merge = |a: Seen, b: Seen| (a.0.and(b.0), a.1.and(b.1), a.2.and(b.2));
-    let (gram, (clusters, profiles, codes)) =
+    let merge = |a: Seen, b: Seen| (a.0.and(b.0), a.1.and(b.1), a.2.and(b.2), a.3.and(b.3));
+    let (gram, (clusters, profiles, codes, patches)) =
         Gram::with_blocks(data, &tangents, noise, &|_| true, &sizes, &fill, &visit, &merge);
     let projected = gram.project_all(base.jitter_m2);
     let mut columns: Vec<Located> = coordinates
         .iter()
         .zip(projected)
         .zip(&sizes)
-        .map(|((coordinate, projected), &size)| {
+        .enumerate()
+        .map(|(number, ((coordinate, projected), &size))| {
             let all: Vec<usize> = (0..size).collect();
             let blocks = [vec![all], parts(coordinate.name, &ranges, size)].concat();
-            let Said { ln_bayes, chi2, best } = evidence(projected, base.columns.len(), &blocks);
+            let fitted = base.columns.len();
+            let read_anew = |column: usize| {
+                explained(&gram.at_variances(number), base.jitter_m2, fitted, fitted + column)
+            };
+            let is_place = |column: usize| is_of_place(coordinate.name, column);
+            let Said { ln_bayes, chi2, best, kind } =
+                evidence(projected, fitted, &blocks, &is_place, &read_anew);
             let shape = (coordinate.shape)(&ranges, best);
-            Located { coordinate: coordinate.name, shape, ln_bayes, chi2, looked: 1.0 }
+            Located { coordinate: coordinate.name, shape, ln_bayes, chi2, looked: 1.0, kind }
         })
         .collect();
     let every = data.grid.every as f64;
@@ -111,11 +138,18 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         Comes::EverySets(sets) => Located::wave("set", format!("{mode}, the same every {sets} sets"), found),
         Comes::Hz(hz) => Located::wave("time_s", format!("{mode}, a swing of {hz:.3} Hz"), found),
     }));
+    columns.extend(clusters.ripples.strongest().into_iter().map(|Ripple { mode, period_m, found }| {
+        Located::wave("position_m", format!("{mode}, a wave of {period_m:.3} m"), found)
+    }));
     let wave_over_codes = codes.strongest();
     let period_dn = wave_over_codes.as_ref().map(|wave| wave.period_dn);
     columns.extend(wave_over_codes.map(|wave| {
         let shape = format!("with a period of {:.1} DN", wave.period_dn);
         Located::wave("code", shape, wave.found)
+    }));
+    columns.extend(patches.strongest(data, &gram.inverses()).map(|patch| {
+        let shape = patch.shape(data, &ranges);
+        Located { kind: Kind::Patch, ..Located::wave("time_s", shape, patch.found) }
     }));
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
     let mut ranked = clusters.ranked();
@@ -141,10 +175,19 @@ struct Said {
     chi2: (f64, usize),
     /// Which column alone says most.
     best: usize,
+    /// What says most.
+    kind: Kind,
 }
 
-/// What columns say that come after the `fitted` ones: those `blocks` of them, of which the first one is the whole, that say most.
-fn evidence(mut projected: Projected, fitted: usize, blocks: &[Vec<usize>]) -> Said {
+/// What columns say that come after the `fitted` ones: those `blocks` of them, of which the first one is the whole, that say most. A block of one column by
+/// which the place is off says what it does when readings are `read_anew` beside it.
+fn evidence(
+    mut projected: Projected,
+    fitted: usize,
+    blocks: &[Vec<usize>],
+    is_place: &dyn Fn(usize) -> bool,
+    read_anew: &dyn Fn(usize) -> f64,
+) -> Said {
     projected.give_way(0..fitted);
     let block = |columns: &Vec<usize>| Block {
         candidate: 0,
@@ -161,7 +204,18 @@ fn evidence(mut projected: Projected, fitted: usize, blocks: &[Vec<usize>]) -> S
         &of,
         COORDINATES.len(),
     );
-    let ln_bayes: Vec<f64> = (0..of.len()).map(|block| evidence.ln_bayes(&[block])).collect();
+    let mut ln_bayes: Vec<f64> = (0..of.len()).map(|block| evidence.ln_bayes(&[block])).collect();
+    let mut scores: Vec<_> = (0..of.len()).map(|block| evidence.score(block).unwrap_or((0.0, 0))).collect();
+    for (block, columns) in blocks.iter().enumerate() {
+        if let [column] = columns[..]
+            && is_place(column)
+            && ln_bayes[block] > LOCATED_NATS
+        {
+            let more = (read_anew(column) - scores[block].0).max(0.0);
+            ln_bayes[block] += 0.5 * more;
+            scores[block].0 += more;
+        }
+    }
     let strongest = (0..of.len()).max_by(|&a, &b| ln_bayes[a].total_cmp(&ln_bayes[b])).unwrap_or(0);
     let alone = |column: usize| {
         let information = projected.matrix[(column, column)];
@@ -171,7 +225,11 @@ fn evidence(mut projected: Projected, fitted: usize, blocks: &[Vec<usize>]) -> S
     let best = of[strongest].columns.iter().copied().max_by(|&a, &b| alone(a).total_cmp(&alone(b)));
     Said {
         ln_bayes: ln_bayes[strongest],
-        chi2: evidence.score(strongest).unwrap_or((0.0, 0)),
+        chi2: scores[strongest],
         best: best.unwrap_or(fitted) - fitted,
+        kind: match blocks[strongest][..] {
+            [column] if is_place(column) => Kind::Place,
+            _ => Kind::Columns,
+        },
     }
 }

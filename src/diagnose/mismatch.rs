@@ -1,7 +1,7 @@
 //! Where recordings and a model differ: the coordinates that stand out, and the errors that samples share at random.
 
 use super::data::Data;
-use super::location::{LOCATED_NATS, Located, Location};
+use super::location::{Kind, LOCATED_NATS, Located, Location};
 use super::random::{self, ORDERED_SHARE, coordinate, deflated, errors, words};
 
 /// Where a mismatch lives.
@@ -43,7 +43,7 @@ pub fn places(data: &Data, location: &Location) -> Vec<Place> {
     let inflation = random::noise(data, location).map_or(1.0, |noise| noise.inflation);
     let stands_out = |located: &&Located| {
         // Waves are measured by what noise there is.
-        let inflation = if located.looked > 1.0 { 1.0 } else { inflation };
+        let inflation = if located.kind == Kind::Wave { 1.0 } else { inflation };
         deflated(inflation, located.ln_bayes, located.chi2.0) > LOCATED_NATS
     };
     let columns = location.columns.iter().filter(stands_out);

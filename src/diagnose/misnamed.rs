@@ -11,7 +11,7 @@ use super::lines::{DRIFT_CYCLES, Line, Series};
 use super::location::Location;
 use super::mismatch::Place;
 use super::noise::Noise;
-use super::overtones::{OF_CODES, overtones};
+use super::overtones::{OF_CODES, is_wave, overtones};
 use super::source::{Shown, is_one, shown};
 use super::steps::{CURVES, step};
 
@@ -58,7 +58,7 @@ fn no_drift(data: &Data, found: &Found, noise: Noise) -> Option<Misnamed> {
 
 /// Where something goes with the code that was taken for a wave, but has overtones, or is a step.
 fn no_wave(data: &Data, found: &Found, baseline: &Location, noise: Noise) -> Option<Misnamed> {
-    found.named.iter().find(|named| named.name == OF_CODES)?;
+    found.fit.pieces.iter().find(|piece| is_wave(piece))?;
     // A step has overtones, too, and repeats nowhere.
     let (shape, is_it): (String, &[&str]) = match step(data, found, noise) {
         Some(level_dn) => (format!("a step near a signal of {level_dn:.0} DN above the pedestal"), &CURVES),

@@ -8,20 +8,25 @@ use super::found::Found;
 use super::gram::Gram;
 use super::noise::Noise;
 use super::pieces::Piece;
+use crate::physics::effects::adc_nonlinearity::PERIOD;
 
 /// The effect that is a wave over the codes.
 pub const OF_CODES: &str = "adc_nonlinearity";
-/// Its strengths, and its shape.
+/// Its strengths.
 pub const PARTS: [usize; 2] = [0, 1];
-pub const PERIOD: usize = 2;
 /// Parts of the period in which overtones are looked for: shorter ones are lost in the noise.
 const OVERTONES: [f64; 2] = [2.0, 3.0];
 /// Overtones that a wave would leave by chance in so small a share of campaigns are none of a wave.
 const BY_CHANCE: f64 = 1e-3;
 
+/// Whether `piece` is a wave over the codes, and not errors of bits.
+pub fn is_wave(piece: &Piece) -> bool {
+    piece.effect.name == OF_CODES && piece.free.contains(&PARTS[0])
+}
+
 /// Whether `piece` is a wave over the codes of which there are fewer than so many `periods` among the signals.
 pub fn is_longer(data: &Data, piece: &Piece, periods: f64) -> bool {
-    piece.effect.name == OF_CODES && periods * piece.values[PERIOD] > data.span_dn()
+    is_wave(piece) && periods * piece.values[PERIOD] > data.span_dn()
 }
 
 /// Whether one of these `pieces` is a wave over the codes that has no whole period among the signals: a smooth curve is the response's, as a rule, whatever its
@@ -32,7 +37,7 @@ pub fn is_bend(data: &Data, pieces: &[Piece]) -> bool {
 
 /// Whether the wave over the codes that was `found` has overtones: its period, DN.
 pub fn overtones(data: &Data, found: &Found, noise: Noise) -> Option<f64> {
-    let wave = found.fit.pieces.iter().find(|piece| piece.effect.name == OF_CODES)?;
+    let wave = found.fit.pieces.iter().find(|piece| is_wave(piece))?;
     let period_dn = wave.values[PERIOD];
     let overtone = |part: f64| {
         let mut values = vec![0.0; wave.values.len()];

@@ -1,7 +1,8 @@
 //! Parts of a coordinate's columns: one way of being off alone may say it by fewer numbers than all.
 
-use super::coordinates::{MODES, OF_RANGE};
+use super::coordinates::{LINE_WAYS, MODES, OF_RANGE};
 use super::ranges::Ranges;
+use super::velocities::OF_RUN;
 
 /// Parts of the columns of a coordinate, by their numbers.
 type Parts = fn(&Ranges, usize) -> Vec<Vec<usize>>;
@@ -16,7 +17,11 @@ const PARTS: [(&str, Parts); 9] = [
         (0..3).map(way).chain(of_offset).collect()
     }),
     ("position_m", modes),
-    ("velocity_m_s", modes),
+    ("velocity_m_s", |ranges, size| {
+        // A place that is not where it is said to be is one number.
+        let of_place = (OF_RUN..size).map(|column| vec![column]);
+        modes(ranges, OF_RUN).into_iter().chain(of_place).collect()
+    }),
     ("frame", |ranges, size| {
         // Long sets have many frames, and few sets.
         let is_short = |column: &usize| {
@@ -45,8 +50,8 @@ const PARTS: [(&str, Parts); 9] = [
         parts
     }),
     ("time_s", modes),
-    ("row", modes),
-    ("column", modes),
+    ("row", of_lines),
+    ("column", of_lines),
     ("amplitude", modes),
     ("set", modes),
 ];
@@ -58,6 +63,16 @@ const SHORT: usize = 8;
 fn modes(_: &Ranges, size: usize) -> Vec<Vec<usize>> {
     let of = size / MODES.len();
     (0..MODES.len()).map(|mode| (mode * of..(mode + 1) * of).collect()).collect()
+}
+
+/// Those of each of [`MODES`], what is smooth and what alternates.
+fn of_lines(ranges: &Ranges, size: usize) -> Vec<Vec<usize>> {
+    let alternates = |column: &usize| column % LINE_WAYS.len() == LINE_WAYS.len() - 1;
+    let of = |part: Vec<usize>| {
+        let (odd, smooth): (Vec<usize>, Vec<usize>) = part.into_iter().partition(alternates);
+        [smooth, odd]
+    };
+    modes(ranges, size).into_iter().flat_map(of).collect()
 }
 
 /// Parts of the columns of `coordinate`, which has so many.
@@ -78,6 +93,8 @@ mod tests {
             tells_constant: vec![true; 4],
             position_m: (0.0, 1.0),
             speed_m_s: 1.0,
+            velocity_m_s: (-1.0, 1.0),
+            alternates: true,
             duration_s: vec![1.0; frames.len()],
             has_places: true,
             has_sets: true,
@@ -102,6 +119,9 @@ mod tests {
         assert_eq!((&phase[1][..4], phase[3][0]), (&[2, 3, 8, 9][..], 36));
         // Offset, gain, phase and contrast have each a cosine and a sine of one to four cycles.
         assert_eq!(phase[3..].iter().map(Vec::len).collect::<Vec<_>>(), [8; 4]);
+        // A place that is off is a part by itself, in either way.
+        let of_velocity = parts("velocity_m_s", &ranges, OF_RUN + 2);
+        assert_eq!(of_velocity[3..], [(15..20).collect(), vec![20], vec![21]]);
         assert!(parts("neighbours", &ranges, 4).is_empty());
     }
 

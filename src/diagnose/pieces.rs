@@ -6,6 +6,7 @@ use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
 use super::refined::is_seldom;
 use super::roundings::rounded;
+use super::sides::sides;
 use crate::physics::{Active, EFFECTS, Effect, Parameter};
 use crate::recording::BASELINE;
 
@@ -33,6 +34,11 @@ impl Piece {
         let effect = crate::physics::effects::named(name).expect("an effect of the registry");
         let (free, takes) = (free.to_vec(), takes.to_vec());
         Self { effect, values: effect.off(), free, takes, finite: false, included: Vec::new() }
+    }
+
+    /// Whether one of its fitted strengths is one to which shapes belong.
+    pub fn has_shapes(&self) -> bool {
+        self.free.iter().any(|&number| self.effect.parameters[number].has_shapes())
     }
 
     /// How many of its shapes are fitted.
@@ -167,12 +173,8 @@ const OF_BOTH_FORMS: [&str; 1] = ["intensity_nonlinearity"];
 /// is off by millimetres that is a mistake; light that comes another way, which amplitudes may take for that, every bench has.
 const UNLIKELY: [(&str, f64); 1] = [("encoder_offset", 10.0)];
 
-/// Effects that are no continuation of themselves beyond off: what moves to one side brings what lies on the other, and what it does must be looked at by itself.
-const WITH_SIDES: [&str; 1] = ["lateral_motion"];
 /// Choices that are looked at in one shape only: near it, all look alike.
 const IN_ONE_SHAPE: [(&str, f64, f64); 2] = [("course", 1.0, 60.0), ("course", -1.0, 1e4)];
-/// A strength on the far side of off begins at so much of its usual size.
-const BARELY: f64 = -1e-9;
 
 /// Effects that differ from pixel to pixel, told from others only where the target is at one place: what changes with the distance differs too.
 pub const OF_ONE_PLACE: [&str; 1] = ["response_decay"];
@@ -276,6 +278,8 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         all.filter(|(_, p)| p.is_usual_strength(instead)).map(|(number, _)| number).collect()
     };
     let (strengths, instead) = (strengths(false), strengths(true));
+    let is_of_all = |&number: &usize| effect.parameters[number].frame.is_none();
+    let of_all: Vec<usize> = instead.iter().copied().filter(is_of_all).collect();
     let mut variants = Vec::new();
     let of_many = data.schemes().into_iter().filter(|&frames| frames >= MANY_FRAMES).count();
     let has_both = of_many > 0 && of_many < data.schemes().len();
@@ -307,7 +311,9 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         } else {
             Vec::new()
         };
-        let forms = [strengths, &instead[..], &both[..]].into_iter().filter(|form| !form.is_empty());
+        // What all frames have may be without what single ones have.
+        let forms = [strengths, &instead[..], &both[..], if of_all == instead { &[] } else { &of_all[..] }];
+        let forms = forms.into_iter().filter(|form| !form.is_empty());
         for strengths in forms {
             let rarity = if value > seen_dn { SMOOTH.1 } else { usual };
             for values in sides(effect, &values, strengths) {
@@ -318,20 +324,6 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         }
     }
     variants
-}
-
-/// The `values` from which the search for an effect of these `strengths` starts: one of each combination of sides, where it has any.
-fn sides(effect: &Effect, values: &[f64], strengths: &[usize]) -> Vec<Vec<f64>> {
-    let mut sides = vec![values.to_vec()];
-    let chosen = effect.parameters.iter().zip(values).find(|(parameter, _)| parameter.is_choice);
-    if WITH_SIDES.contains(&effect.name) && chosen.is_none_or(|(_, &chosen)| chosen == 0.0) {
-        for &number in strengths {
-            let mut beyond = sides.clone();
-            beyond.iter_mut().for_each(|values| values[number] += BARELY * effect.parameters[number].typical);
-            sides.extend(beyond);
-        }
-    }
-    sides
 }
 
 fn pieces(

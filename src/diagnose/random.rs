@@ -331,8 +331,14 @@ mod tests {
     #[test]
     fn columns_of_the_fastest_frames_order_less() {
         let of = |coordinate| {
-            let located =
-                Located { coordinate, shape: String::new(), ln_bayes: 115.0, chi2: (300.0, 15), looked: 1.0 };
+            let located = Located {
+                coordinate,
+                shape: String::new(),
+                ln_bayes: 115.0,
+                chi2: (300.0, 15),
+                looked: 1.0,
+                kind: crate::diagnose::location::Kind::Columns,
+            };
             let location = Location {
                 columns: vec![located],
                 clusters: Vec::new(),

@@ -21,6 +21,10 @@ pub struct Ranges {
     pub has_sets: bool,
     /// Greatest speed, m/s.
     pub speed_m_s: f64,
+    /// Least and greatest velocity, m/s.
+    pub velocity_m_s: (f64, f64),
+    /// Whether every other row and column of those that are looked at is every other one of the sensor.
+    pub alternates: bool,
     /// Duration of each recording, s.
     pub duration_s: Vec<f64>,
     /// Frames a set of each recording, and the first number of its frames among those of all schemes.
@@ -60,6 +64,8 @@ impl Ranges {
             has_places: places_m.0 < places_m.1,
             has_sets: moments().any(|moment| moment.set > 0),
             speed_m_s: moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max),
+            velocity_m_s: least_greatest(&mut moments().map(|moment| moment.velocity_m_s)),
+            alternates: data.grid.every % 2 == 1,
             duration_s: data.takes.iter().map(|t| t.moments.last().map_or(0.0, |m| m.time_s)).collect(),
             frames: data.takes.iter().map(|take| (take.frames, first(take.frames))).collect(),
             frame_numbers: schemes.iter().sum(),

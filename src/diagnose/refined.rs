@@ -1,15 +1,19 @@
 //! An effect that was named in its usual form, in those that are seldom: tried where it is named only, as candidates they would cost more than they find.
 
+use super::bits::with_bits;
 use super::completed::NEEDED_NATS;
 use super::contest::{Entrant, hopeful};
 use super::data::Data;
 use super::finished::finished;
 use super::fit::{End, Fit, WHOLE, fit_led};
+use super::lamp_overtones::with_overtone;
+use super::lamps::FLICKER;
 use super::noise::Noise;
-use super::overtones::{OF_CODES, is_longer};
+use super::overtones::{OF_CODES, is_longer, is_wave};
 use super::pieces::Piece;
 use super::roundings::OF_SHIFTER;
 use super::whole_rounding::with_whole_rounding;
+use crate::physics::effects::adc_nonlinearity::FORM;
 use rayon::prelude::*;
 
 /// Effects, and of one of their choices what is seldom.
@@ -25,8 +29,6 @@ const SIDE: &str = "wall_beside";
 const REPEATS: f64 = 2.0;
 /// Among the ways of an effect, the number of that in which it is.
 pub const UNCHANGED: usize = 0;
-/// Number of the form of a wave over the codes.
-const FORM: usize = 3;
 
 /// Whether `chosen` is what is seldom of the `choice` of the effect `name`, in which it is not looked for from the start.
 pub fn is_seldom(name: &str, choice: &str, chosen: f64) -> bool {
@@ -48,7 +50,7 @@ fn with_choice(piece: &Piece, choice: &str, chosen: f64) -> Option<Piece> {
 
 /// What is `fitted` [as it is](UNCHANGED), and with each of what is seldom of the effect `name`.
 fn ways(fitted: &Fit, name: &'static str) -> Vec<Entrant> {
-    let is_of = |piece: &Piece| piece.effect.name == name;
+    let is_of = |piece: &Piece| piece.effect.name == name && (name != OF_CODES || is_wave(piece));
     let other = |choice: &str, chosen: f64| -> Option<Vec<Piece>> {
         let anew = |piece: &Piece| {
             if is_of(piece) { with_choice(piece, choice, chosen) } else { Some(piece.clone()) }
@@ -66,6 +68,12 @@ fn ways(fitted: &Fit, name: &'static str) -> Vec<Entrant> {
 pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Fit {
     while let Some(better) = better(data, &fitted, noise, is_new) {
         fitted = better;
+    }
+    if is_new(OF_CODES) {
+        fitted = with_bits(data, fitted, noise);
+    }
+    if is_new(FLICKER) {
+        fitted = with_overtone(data, fitted, noise);
     }
     if is_new(OF_SHIFTER) { with_whole_rounding(data, fitted, noise) } else { fitted }
 }
@@ -110,6 +118,7 @@ mod tests {
     use crate::diagnose::fit::fit;
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
+    use crate::physics::effects::adc_nonlinearity::PERIOD;
 
     /// What is left of a square wave or a sawtooth by its fundamental is taken by that, not by another form; of a wave nothing is left, and its form stays.
     #[test]
@@ -122,13 +131,13 @@ mod tests {
             let noise = stated_noise(&data);
             let baseline = unfitted(&data, noise);
             let mut piece = Piece::off(OF_CODES, &[0, 1], &[0]);
-            piece.values[2] = 200.0;
+            piece.values[PERIOD] = 200.0;
             let wave = fit(&data, Some(&baseline), vec![piece], noise, &|_| true);
             let fitted = refined(&data, wave.clone(), noise, &|_| true);
             let old = refined(&data, wave.clone(), noise, &|_| false);
             assert_eq!(old.pieces[0].values, wave.pieces[0].values);
             let values = &fitted.pieces[0].values;
-            assert!(values[3] == chosen && (fitted.left() < wave.left()) == (chosen != 0.0), "{values:?}");
+            assert!(values[FORM] == chosen && (fitted.left() < wave.left()) == (chosen != 0.0), "{values:?}");
             assert!((values[0] - 3.0).hypot(values[1] + 4.0) < 0.3, "{values:?}");
         }
     }

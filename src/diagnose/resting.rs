@@ -7,6 +7,7 @@ use super::found::Named;
 use super::lamps::FLICKER;
 use super::noise::Noise;
 use super::pieces::Piece;
+use crate::physics::effects::ambient_flicker::FREQUENCY;
 
 /// Light that drifts.
 const DRIFTS: [&str; 2] = ["ambient_drift", "illumination_drift"];
@@ -30,7 +31,9 @@ pub fn drop_resting(data: &Data, noise: Noise, current: &mut Fit, named: &mut Ve
     let going: Vec<&str> = DRIFTS.into_iter().filter(|name| goes_on(&current.pieces, name)).collect();
     let is_drift = |named: &Named| going.contains(&named.name);
     let mut pieces = current.pieces.iter().filter(|piece| piece.effect.name == FLICKER);
-    if !named.iter().any(is_drift) || !pieces.all(|piece| current.series.sees_at_rest(piece.values[2])) {
+    if !named.iter().any(is_drift)
+        || !pieces.all(|piece| current.series.sees_at_rest(piece.values[FREQUENCY]))
+    {
         return;
     }
     named.remove(flicker);
@@ -56,11 +59,11 @@ mod tests {
         let noise = stated_noise(&data);
         let baseline = unfitted(&data, noise);
         let mut flicker = Piece::off(FLICKER, &[0, 1], &[0, 1]);
-        flicker.values[2] = frequency_hz;
+        flicker.values[FREQUENCY] = frequency_hz;
         let pieces = vec![Piece::off(drift, &[0], &[0, 1]), flicker];
         let mut current = fit(&data, Some(&baseline), pieces, noise, &|_| true);
         // Where its frequency went is no question here.
-        current.pieces[1].values[2] = frequency_hz;
+        current.pieces[1].values[FREQUENCY] = frequency_hz;
         let name =
             |name| Named { name, ln_bayes: 50.0, score: (100.0, 2), rivals: Vec::new(), is_trusted: false };
         let mut named = vec![name(drift), name(FLICKER)];

@@ -31,7 +31,7 @@ pub fn shown(fit: &Fit, inflation: f64) -> Vec<Shown> {
     let flickers = |piece: &Piece| piece.effect.name == FLICKER;
     let of = |(number, piece): (usize, &Piece)| {
         let values = || piece.effect.parameters.iter().zip(&piece.values);
-        let strengths = values().filter(|(parameter, _)| !parameter.is_shape());
+        let strengths = values().filter(|(parameter, _)| parameter.is_usual_strength(false));
         let size = strengths.map(|(parameter, value)| (value - parameter.off).powi(2)).sum::<f64>().sqrt();
         let take = *piece.takes.first()?;
         let hz = values().find(|(parameter, _)| parameter.is_shape()).map(|(_, hz)| *hz)?;
@@ -40,7 +40,7 @@ pub fn shown(fit: &Fit, inflation: f64) -> Vec<Shown> {
         let along = |(place, column): (usize, &Column)| {
             let parameter = &piece.effect.parameters[column.parameter];
             let share = (piece.values[column.parameter] - parameter.off) / size;
-            (!parameter.is_shape()).then_some((place, share))
+            parameter.is_usual_strength(false).then_some((place, share))
         };
         let along: Vec<_> = own.filter_map(along).collect();
         let fitted = sigma_along(&fit.covariance, &along);

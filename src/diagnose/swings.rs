@@ -71,7 +71,7 @@ pub struct Swing {
 /// Fewer cycles over the longest recording are a drift.
 const LEAST_CYCLES: f64 = 2.0;
 /// Sets that a recording has at least.
-const LEAST_SETS: usize = 16;
+pub const LEAST_SETS: usize = 16;
 /// A line's numbers in a recording: cosine and sine.
 const NUMBERS: usize = 2;
 /// Standard deviations that a set is taken to be off at most.

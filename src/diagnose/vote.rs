@@ -3,7 +3,7 @@
 use super::evidence::tail;
 use super::found::{Found, Named};
 use super::lamps::FLICKER;
-use super::location::{LOCATED_NATS, Located};
+use super::location::{Kind, LOCATED_NATS, Located};
 use super::pass::RIVAL_NATS;
 use super::pieces::{OF_OTHER_PIXELS, Piece};
 use super::tolerated::tolerated;
@@ -107,10 +107,12 @@ impl Names {
         }
         let ((chi2, columns), numbers) = (coordinate.chi2, self.numbers);
         // Tangents of a strong effect promise more than there is, and its form may leave something.
+        // That the target is not where it is said to be is no other form of anything: a reading that comes late is as likely as what is named.
         let is_other = columns < numbers
+            || coordinate.kind == Kind::Place && columns <= numbers
             || excess((chi2, columns)) > excess((self.at_most.0, numbers)) + 2.0 * RIVAL_NATS;
         // A flicker swings.
-        let is_swing = coordinate.looked > 1.0 && matches!(coordinate.coordinate, "time_s" | "set");
+        let is_swing = coordinate.kind == Kind::Wave && matches!(coordinate.coordinate, "time_s" | "set");
         let says_more = match self.flickers && is_swing {
             true => coordinate.ln_bayes > self.ln_bayes + RIVAL_NATS,
             false => {
@@ -131,7 +133,8 @@ mod tests {
     use super::*;
 
     fn located(coordinate: &'static str, ln_bayes: f64, chi2: (f64, usize), looked: f64) -> Located {
-        Located { coordinate, shape: String::new(), ln_bayes, chi2, looked }
+        let kind = if looked > 1.0 { Kind::Wave } else { Kind::Columns };
+        Located { coordinate, shape: String::new(), ln_bayes, chi2, looked, kind }
     }
 
     const NAMES: Names = Names {
@@ -178,6 +181,18 @@ mod tests {
         // What is far from noise is no question of it.
         let strong = Names { ln_bayes: 4000.0, at_most: (8e3, 6), ..NAMES };
         assert!(!outvotes(strong, "phase", 3000.0, (8e3 + 7.0, 2)));
+    }
+
+    /// By as many numbers it is another form of nothing.
+    #[test]
+    fn a_place_that_is_off_outvotes_what_says_no_more() {
+        let single = Names { numbers: 1, at_most: (57.0, 1), ..NAMES };
+        let of = |kind: Kind, ln_bayes: f64, columns: usize| {
+            let coordinate = located("velocity_m_s", ln_bayes, (56.0, columns), 1.0);
+            single.are_outvoted_by(&Located { kind, ..coordinate })
+        };
+        assert!(of(Kind::Place, 19.5, 1) && !of(Kind::Columns, 19.5, 1));
+        assert!(!of(Kind::Place, 18.5, 1) && !of(Kind::Place, 19.5, 2));
     }
 
     #[test]

@@ -128,6 +128,11 @@ impl Parameter {
         self.is_choice && self.shapes.iter().any(|shape| *shape >= self.bounds.1)
     }
 
+    /// Whether it is a strength to which the effect's shapes belong: those that are looked for by themselves have none.
+    pub const fn has_shapes(&self) -> bool {
+        !self.is_shape() && !self.is_looked_for
+    }
+
     /// Whether it is a strength of the usual form, or, `instead`, of the other one.
     pub const fn is_usual_strength(&self, instead: bool) -> bool {
         !self.is_shape() && !self.is_looked_for && self.is_instead == instead

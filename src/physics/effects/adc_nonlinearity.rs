@@ -13,9 +13,22 @@ const MOST: f64 = 0.02;
 /// The longest period in full scales: that of the first bit, all codes, of which some are below the pedestal.
 const LONGEST: f64 = 1.05;
 
+/// Bits of a converter's code that may be of a wrong weight, the first ones: what is finer than these is lost in the noise.
+const BITS: usize = 6;
+/// Number of the first bit's error among the parameters.
+pub const FIRST_BIT: usize = 2;
+/// Number of the period.
+pub const PERIOD: usize = FIRST_BIT + BITS;
+/// Number of the form.
+pub const FORM: usize = PERIOD + 1;
+
+const fn bit(name: &'static str) -> Parameter {
+    Parameter::strength(name, "DN", 0.0, (-50.0, 50.0), 1.0).within_full_scales(MOST).looked_for()
+}
+
 /// An error that is periodic in the code: its parts, and its period; a wave (0); what a bit of a wrong weight makes, a square wave (1, from top to bottom
 /// pi / 2 times this fundamental); a triangle (-1); or what a stage of a wrong gain makes, a sawtooth that falls slowly and rises at once (0.5), or the other
-/// way round (-0.5). Up to the twelfth harmonic: the noise leaves little of higher ones.
+/// way round (-0.5). Up to the twelfth harmonic: the noise leaves little of higher ones. Or what the weights of several bits are off by at once.
 pub static EFFECT: Effect = Effect {
     name: "adc_nonlinearity",
     sentence: "The converter's code is off by an amount that repeats with the code (integral non-linearity of its stages).",
@@ -23,6 +36,12 @@ pub static EFFECT: Effect = Effect {
     parameters: &[
         Parameter::strength("cosine_dn", "DN", 0.0, (-50.0, 50.0), 1.0).within_full_scales(MOST),
         Parameter::strength("sine_dn", "DN", 0.0, (-50.0, 50.0), 1.0).within_full_scales(MOST),
+        bit("bit_1_dn"),
+        bit("bit_2_dn"),
+        bit("bit_3_dn"),
+        bit("bit_4_dn"),
+        bit("bit_5_dn"),
+        bit("bit_6_dn"),
         Parameter::shape("period_dn", "DN", 256.0, (16.0, 81_920.0), SHAPES).within_full_scales(LONGEST),
         Parameter::choice("form", "1", &[0.0, -1.0, -0.5, 0.5, 1.0]),
     ],
@@ -59,9 +78,10 @@ fn harmonics(form: f64) -> Option<[f64; HARMONICS]> {
 
 fn act(values: &[f64], exposure: &mut Exposure) {
     let (pedestal_dn, cosine_dn, sine_dn, period_dn) =
-        (exposure.pixels.pedestal_dn, values[0], values[1], values[2]);
+        (exposure.pixels.pedestal_dn, values[0], values[1], values[PERIOD]);
+    let codes = exposure.pixels.full_scale_dn + pedestal_dn + 1.0;
     let signals: &mut [f64] = &mut exposure.signal_dn;
-    match harmonics(values[3]) {
+    match harmonics(values[FORM]) {
         Some(harmonics) => add_form(signals, pedestal_dn, [cosine_dn, sine_dn], period_dn, harmonics),
         // A wave by itself is what is looked for everywhere: it does without the others' twelve.
         None => {
@@ -73,6 +93,27 @@ fn act(values: &[f64], exposure: &mut Exposure) {
             })
         }
     }
+    for (bit, &weight_dn) in values[FIRST_BIT..PERIOD].iter().enumerate().filter(|(_, dn)| **dn != 0.0) {
+        add_bit(signals, pedestal_dn, weight_dn, codes, bit);
+    }
+}
+
+/// Where a bit changes, the noise makes an edge that is so many of all codes wide, from the middle: of 4096 codes 8, as noise of some 5 makes it.
+const EDGE: f64 = 1.0 / 512.0;
+
+/// Adds what is wrong with the weight of a `bit`, of which 0 is the first one, of so many `codes`: half of it where it is set, and takes half of it where it is not.
+fn add_bit(signals: &mut [f64], pedestal_dn: f64, weight_dn: f64, codes: f64, bit: usize) {
+    let period_dn = codes / (1_u64 << bit) as f64;
+    let steep = period_dn / (EDGE * codes);
+    widest!((signals: &'a mut [f64], pedestal_dn: f64, weight_dn: f64, period_dn: f64, steep: f64) {
+        for signal in signals {
+            let place = (*signal + pedestal_dn) / period_dn;
+            // From the middle of the half of the period in which it is set.
+            let off = (place - libm::floor(place) - 0.75).abs();
+            let set = steep * (0.25 - off.min(1.0 - off));
+            *signal += 0.5 * weight_dn * set.clamp(-1.0, 1.0);
+        }
+    });
 }
 
 /// Adds a wave of these parts and all its `harmonics`.
@@ -109,6 +150,24 @@ fn add_form(
 mod tests {
     use super::*;
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+    /// Of 4096 codes the first bit is set from 2048 on, the third one in every other run of 512.
+    #[test]
+    fn a_bit_is_set_where_it_is() {
+        let shown = |bit: usize, code: f64| {
+            let mut signal = [code - 64.0];
+            add_bit(&mut signal, 64.0, 3.0, 4096.0, bit);
+            signal[0] - (code - 64.0)
+        };
+        for (bit, of) in [(0, 2048), (2, 512), (5, 64)] {
+            for code in (10..4096).step_by(20).filter(|code| (8..of - 8).contains(&(code % of))) {
+                let is_set = code / of % 2 == 1;
+                let expected = if is_set { 1.5 } else { -1.5 };
+                assert!((shown(bit, f64::from(code)) - expected).abs() < 1e-9, "bit {bit} of {code}");
+            }
+        }
+        assert!(shown(0, 2048.0).abs() < 1e-9 && (shown(0, 2052.0) - 0.75).abs() < 1e-9);
+    }
 
     /// By the closed forms, a quarter of a period and more away from where they jump: within what the harmonics beyond the twelfth are there.
     #[test]

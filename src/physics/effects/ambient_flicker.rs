@@ -3,14 +3,21 @@
 use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, cos_sin};
 use std::f64::consts::TAU;
 
-/// Relative modulation of the ambient light at twice the mains frequency.
+/// Number of the overtone's cosine among the parameters; its sine comes after it.
+pub const OVERTONE: usize = 2;
+/// Number of the frequency.
+pub const FREQUENCY: usize = 4;
+
+/// Relative modulation of the ambient light at twice the mains frequency, and, where a lamp is no filament, at twice that.
 pub static EFFECT: Effect = Effect {
     name: "ambient_flicker",
     sentence: "The ambient light flickers with the mains (100 or 120 Hz), and the frames sample it at different moments.",
-    reference: "B_n = B0 (1 + b cos(2 pi f t_n + x))",
+    reference: "B_n = B0 (1 + b cos(2 pi f t_n + x) + b2 cos(4 pi f t_n + x2))",
     parameters: &[
         Parameter::strength("cosine", "1", 0.0, (-1.0, 1.0), 0.1),
         Parameter::strength("sine", "1", 0.0, (-1.0, 1.0), 0.1),
+        Parameter::strength("second_cosine", "1", 0.0, (-1.0, 1.0), 0.03).looked_for(),
+        Parameter::strength("second_sine", "1", 0.0, (-1.0, 1.0), 0.03).looked_for(),
         Parameter::shape("frequency_hz", "Hz", 100.0, (40.0, 400.0), &[100.0, 120.0]),
     ],
     place: Place::Light,
@@ -21,7 +28,10 @@ pub static EFFECT: Effect = Effect {
 };
 
 fn act(values: &[f64], exposure: &mut Exposure) {
-    let (cosine, sine) = cos_sin((TAU * values[2] * exposure.taken_s()) % TAU);
-    let factor = 1.0 + values[0] * cosine + values[1] * sine;
+    let (cosine, sine) = cos_sin((TAU * values[FREQUENCY] * exposure.taken_s()) % TAU);
+    // cos 2a and sin 2a.
+    let (twice_cosine, twice_sine) = (cosine * cosine - sine * sine, 2.0 * sine * cosine);
+    let overtone = values[OVERTONE] * twice_cosine + values[OVERTONE + 1] * twice_sine;
+    let factor = 1.0 + values[0] * cosine + values[1] * sine + overtone;
     exposure.ambient_dn.iter_mut().for_each(|ambient| *ambient *= factor);
 }

@@ -1,8 +1,8 @@
 //! The effects, one file each, and their registry.
 
-mod adc_nonlinearity;
+pub mod adc_nonlinearity;
 mod ambient_drift;
-mod ambient_flicker;
+pub mod ambient_flicker;
 mod axial_motion;
 mod charge_crosstalk;
 mod clock_jitter;

@@ -1,0 +1,28 @@
+//! Bits of wrong weights in the place of a wave over the codes: of several at once a wave is the greatest part, and not what they are.
+
+use super::bounds::is_bounded;
+use super::completed::NEEDED_NATS;
+use super::data::Data;
+use super::finished::finished;
+use super::fit::{Fit, fit_below};
+use super::noise::Noise;
+use super::overtones::is_wave;
+use super::pieces::Piece;
+use crate::physics::effects::adc_nonlinearity::{FIRST_BIT, PERIOD};
+
+/// What is `fitted`, with the weights of all bits in the place of a wave over the codes, whatever its form, where that fits clearly better.
+pub fn with_bits(data: &Data, fitted: Fit, noise: Noise) -> Fit {
+    if !fitted.pieces.iter().any(is_wave) {
+        return fitted;
+    }
+    let bits = |piece: &Piece| Piece {
+        values: piece.effect.off(),
+        free: (FIRST_BIT..PERIOD).collect(),
+        ..piece.clone()
+    };
+    let instead = |piece: &Piece| if is_wave(piece) { bits(piece) } else { piece.clone() };
+    let pieces = fitted.pieces.iter().map(instead).collect();
+    let most = fitted.cost() - NEEDED_NATS;
+    let with = finished(data, fit_below(data, &fitted, pieces, noise, most), noise);
+    if with.cost() < most && !is_bounded(&with) { with } else { fitted }
+}

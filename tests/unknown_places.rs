@@ -1,0 +1,96 @@
+//! `vuris diagnose` on what no library has, in a few pixels for a while, in every other row, or wherever the target is at certain places: located, and not named.
+
+mod diagnosed;
+mod rewritten;
+
+use diagnosed::{names, parameter, simulated, verdict};
+use rewritten::{Sample, rewrite, rewrite_recordings};
+use serde_json::Value;
+use std::f64::consts::TAU;
+use std::path::Path;
+use vuris::frames::RawSets;
+
+/// Code at no light, of the simulated camera.
+const PEDESTAL_DN: f64 = 64.0;
+
+/// What is said of a clean campaign of these `recordings`, which `change` has changed.
+fn verdict_of(recordings: &str, change: impl Fn(&Path)) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ["--size", "16x12", "--seed", "47", "--recordings", recordings];
+    let campaign = simulated(folder.path().join("campaign"), &options);
+    change(&campaign);
+    verdict(&campaign)
+}
+
+/// Nothing is named, and the mismatch lives in `coordinate` above all, in a shape that says all of `words`.
+fn is_located(verdict: &Value, coordinate: &str, words: &[&str]) {
+    assert_eq!(verdict["verdict"], "unexplained", "{verdict:#}");
+    assert!(names(verdict).is_empty(), "{verdict:#}");
+    let located = &verdict["located"][0];
+    assert_eq!(located["coordinate"], coordinate, "{verdict:#}");
+    let shape = located["shape"].as_str().unwrap();
+    assert!(words.iter().all(|word| shape.contains(word)), "{shape}, not {words:?}");
+}
+
+/// A fly before the lens takes a two-hundredth of the light of four by four pixels for a third of each recording.
+#[test]
+fn what_sits_before_a_few_pixels_for_a_while_is_found_where_it_is() {
+    let verdict = verdict_of("four-rail,wdft-rail", |campaign| {
+        rewrite(campaign, |Sample { set, row, column, code, .. }| {
+            let is_there = (3..7).contains(&row) && (8..12).contains(&column) && (30..64).contains(&set);
+            if is_there { code - 0.005 * (code - PEDESTAL_DN) } else { code }
+        });
+    });
+    is_located(&verdict, "time_s", &["rows 3 to 6, columns 8 to 11"]);
+}
+
+/// Two amplifiers take the rows in turn, and one of them warms up.
+#[test]
+fn rows_that_take_turns_are_seen_as_such() {
+    let verdict =
+        verdict_of("four-rail,wdft-rail", |campaign| {
+            rewrite(campaign, |Sample { set, row, code, .. }| {
+                if row % 2 == 0 { code + 5e-5 * set as f64 * (code - PEDESTAL_DN) } else { code }
+            });
+        });
+    // On a rail the distance grows with the time.
+    is_located(&verdict, "row", &["every other line with "]);
+}
+
+/// The supply gives way whenever the carriage's motor is at a pole: more light is no error of the encoder.
+#[test]
+fn light_that_goes_with_the_place_is_no_error_of_the_encoder() {
+    let verdict = verdict_of("four-rail,wdft-rail,four-motion", |campaign| {
+        rewrite_recordings(campaign, |_, recording| {
+            let (geometry, frames) = (recording.geometry(), recording.raw.frames_per_set());
+            let of_set = frames * geometry.pixels();
+            let anew = |(at, &code): (usize, &u32)| {
+                let place_m = recording.sets[at / of_set].position_m.unwrap();
+                let more = 2e-3 * (TAU * place_m / 0.31).cos();
+                // A sixteenth of a code is too little to be seen in one: it is there in so many of sixteen.
+                let dithered = 0.5 + (((at * 7919) % 16) as f64 - 7.5) / 16.0;
+                (f64::from(code) + more * (f64::from(code) - PEDESTAL_DN) + dithered).floor() as u32
+            };
+            let codes = recording.raw.codes().iter().enumerate().map(anew).collect();
+            recording.raw = RawSets::new(geometry, frames, codes).unwrap();
+        });
+    });
+    is_located(&verdict, "position_m", &["a wave of 0.3"]);
+}
+
+/// A lamp that is no filament has an overtone: it is the same lamp.
+#[test]
+fn a_lamp_may_have_an_overtone() {
+    let folder = tempfile::tempdir().unwrap();
+    let lamp =
+        "ambient_flicker:cosine=0.02,sine=0.01,frequency_hz=99.83,second_cosine=0.006,second_sine=-0.004";
+    let options =
+        ["--size", "16x12", "--seed", "47", "--recordings", "four-rail,wdft-rail", "--effect", lamp];
+    let verdict = verdict(&simulated(folder.path().join("campaign"), &options));
+    assert_eq!(names(&verdict), ["ambient_flicker"], "{verdict:#}");
+    assert_eq!(verdict["verdict"], "explained", "{verdict:#}");
+    for (name, truth) in [("cosine", 0.02), ("second_cosine", 0.006), ("second_sine", -0.004)] {
+        let (value, sigma) = parameter(&verdict, name);
+        assert!((value - truth).abs() < 4.0 * sigma && sigma < 0.002, "{name}: {value} +- {sigma}");
+    }
+}
