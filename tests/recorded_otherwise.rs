@@ -4,18 +4,14 @@
 mod diagnosed;
 mod rewritten;
 
-use diagnosed::{names, parameter, simulated, verdict};
+use diagnosed::{names, parameter, verdict_on_changed};
 use rewritten::rewrite_recordings;
 use serde_json::Value;
 use std::path::Path;
 
 /// What is said of a clean campaign that `change` has changed.
 fn verdict_of(recordings: &str, change: impl Fn(&Path)) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let options = ["--size", "14x12", "--seed", "43", "--recordings", recordings];
-    let campaign = simulated(folder.path().join("campaign"), &options);
-    change(&campaign);
-    verdict(&campaign)
+    verdict_on_changed(&["--size", "14x12", "--seed", "43", "--recordings", recordings], change)
 }
 
 #[test]

@@ -3,7 +3,7 @@
 mod diagnosed;
 mod rewritten;
 
-use diagnosed::{names, parameter, simulated, verdict};
+use diagnosed::{names, parameter, simulated, verdict, verdict_on_changed};
 use rewritten::{Sample, rewrite, rewrite_recordings};
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -15,11 +15,7 @@ const PEDESTAL_DN: f64 = 64.0;
 
 /// What is said of a clean campaign of these `recordings`, which `change` has changed.
 fn verdict_of(recordings: &str, change: impl Fn(&Path)) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let options = ["--size", "16x12", "--seed", "47", "--recordings", recordings];
-    let campaign = simulated(folder.path().join("campaign"), &options);
-    change(&campaign);
-    verdict(&campaign)
+    verdict_on_changed(&["--size", "16x12", "--seed", "47", "--recordings", recordings], change)
 }
 
 /// Nothing is named, and the mismatch lives in `coordinate` above all, in a shape that says all of `words`.

@@ -1,10 +1,8 @@
 //! Bits of wrong weights in the place of a wave over the codes: of several at once a wave is the greatest part, and not what they are.
 
-use super::bounds::is_bounded;
-use super::completed::NEEDED_NATS;
+use super::completed::clearly_better;
 use super::data::Data;
-use super::finished::finished;
-use super::fit::{Fit, fit_below};
+use super::fit::Fit;
 use super::noise::Noise;
 use super::overtones::is_wave;
 use super::pieces::Piece;
@@ -22,7 +20,5 @@ pub fn with_bits(data: &Data, fitted: Fit, noise: Noise) -> Fit {
     };
     let instead = |piece: &Piece| if is_wave(piece) { bits(piece) } else { piece.clone() };
     let pieces = fitted.pieces.iter().map(instead).collect();
-    let most = fitted.cost() - NEEDED_NATS;
-    let with = finished(data, fit_below(data, &fitted, pieces, noise, most), noise);
-    if with.cost() < most && !is_bounded(&with) { with } else { fitted }
+    clearly_better(data, &fitted, pieces, noise).unwrap_or(fitted)
 }

@@ -3,7 +3,8 @@
 
 use super::bounds::is_bounded;
 use super::data::Data;
-use super::fit::{Fit, fit};
+use super::finished::finished;
+use super::fit::{Fit, fit, fit_below};
 use super::noise::Noise;
 use super::pass::DISBELIEF;
 use super::pieces::Piece;
@@ -13,6 +14,13 @@ use super::tolerated::tolerance;
 const COMPLETING: usize = 4;
 /// An effect without which chi squared, halved, rises by less than this and one more for each of its numbers was not needed.
 pub const NEEDED_NATS: f64 = 6.0;
+
+/// The fit of `pieces` in the place of what is `fitted`, if that is clearly better, and at no bound.
+pub fn clearly_better(data: &Data, fitted: &Fit, pieces: Vec<Piece>, noise: Noise) -> Option<Fit> {
+    let most = fitted.cost() - NEEDED_NATS;
+    let with = fit_below(data, fitted, pieces, noise, most);
+    (with.cost() < most).then(|| finished(data, with, noise)).filter(|with| !is_bounded(with))
+}
 
 /// A fit in which an effect has all of its numbers.
 #[derive(Debug, Clone)]

@@ -4,6 +4,7 @@
 
 use super::acting::Acting;
 use super::columns::Frame;
+use super::line_ways::{LINE_WAYS, Ways};
 use super::neighbours::{NEIGHBOURS, neighbours};
 use super::ranges::Ranges;
 use super::velocities;
@@ -109,6 +110,7 @@ pub fn each(columns: Vec<Vec<f64>>) -> Acting {
     acting
 }
 
+/// A column of so many functions of each mode, in words.
 pub fn mode_shape(of: usize, column: usize, what: impl Fn(usize) -> String) -> String {
     format!("{}, {}", MODES[column / of], what(column % of))
 }
@@ -142,8 +144,6 @@ const OFFSET_CYCLES: usize = 4;
 const OF_OFFSET: usize = 2 * OFFSET_CYCLES;
 /// Functions of the phase offset that are less are zero: offsets are written with six digits.
 const LEAST_OF_OFFSET: f64 = 1e-5;
-/// How lines differ.
-pub const LINE_WAYS: [&str; 3] = ["slope", "bow", "every other line"];
 /// A pixel's row or column matters to its own numbers only by something that changes from frame to frame.
 const CHANGES: [&str; 4] = ["with velocity", "with the frame of a set", "with distance", "with time"];
 
@@ -204,17 +204,13 @@ pub const COORDINATES: [Coordinate; 11] = [
     Coordinate {
         name: "row",
         columns: |_| MODES.len() * LINE_WAYS.len() * CHANGES.len(),
-        fill: |view| {
-            by_line(view, view.ranges.geometry.height, |pixel| view.ranges.geometry.row_column(pixel).0)
-        },
+        fill: |view| by_line(view, &view.ranges.rows),
         shape: line_shape,
     },
     Coordinate {
         name: "column",
         columns: |_| MODES.len() * LINE_WAYS.len() * CHANGES.len(),
-        fill: |view| {
-            by_line(view, view.ranges.geometry.width, |pixel| view.ranges.geometry.row_column(pixel).1)
-        },
+        fill: |view| by_line(view, &view.ranges.columns),
         shape: line_shape,
     },
     Coordinate { name: "code", columns: |_| CODES + 2 * PATTERNS.len(), fill: code, shape: code_shape },
@@ -259,7 +255,8 @@ pub fn centred(moment: &Moment) -> f64 {
     along(moment.frame, moment.frames)
 }
 
-fn along(index: usize, count: usize) -> f64 {
+/// A place among so many, -1 … 1.
+pub fn along(index: usize, count: usize) -> f64 {
     if count > 1 { 2.0 * index as f64 / (count - 1) as f64 - 1.0 } else { 0.0 }
 }
 
@@ -322,7 +319,7 @@ fn phase_shape(_: &Ranges, column: usize) -> String {
     }
 }
 
-fn by_line(view: &View, lines: usize, line: impl Fn(usize) -> usize) -> Acting {
+fn by_line(view: &View, places: &[Ways]) -> Acting {
     let moment = view.moment;
     let changes = [
         moment.velocity_m_s / view.ranges.speed_m_s.max(1e-9),
@@ -330,24 +327,10 @@ fn by_line(view: &View, lines: usize, line: impl Fn(usize) -> usize) -> Acting {
         2.0 * within(moment.position_m, view.ranges.position_m) - 1.0,
         2.0 * moment.time_s / view.ranges.duration_s[view.take].max(1e-9) - 1.0,
     ];
-    // A slope, a bow, and amplifiers that take turns, of which one may have more of the target, or of the background: what all of these do is none of either.
-    let (target, turn) =
-        (&view.pixels.target, |index: usize| if index.is_multiple_of(2) { 1.0 } else { -1.0 });
-    let means = [false, true].map(|is_target| {
-        let here = (0..view.frame.base.len()).filter(|&pixel| target[pixel] == is_target);
-        let (sum, count) = here.fold((0.0, 0.0), |of, pixel| (of.0 + turn(line(pixel)), of.1 + 1.0));
-        if count > 0.0 { sum / count } else { 0.0 }
-    });
-    let ways = |pixel: usize| {
-        let x = along(line(pixel), lines);
-        let turn = turn(line(pixel)) - means[usize::from(target[pixel])];
-        [x, x * x - 1.0 / 3.0, if view.ranges.alternates && lines > 1 { turn } else { 0.0 }]
-    };
-    let places: Vec<[f64; LINE_WAYS.len()]> = (0..view.frame.base.len()).map(ways).collect();
     let mut columns = Acting::default();
     for number in 0..MODES.len() {
         let base = mode(view, number);
-        let pattern = |way: usize| base.iter().zip(&places).map(|(b, ways)| b * ways[way]).collect();
+        let pattern = |way: usize| base.iter().zip(places).map(|(b, ways)| b * ways[way]).collect();
         let patterns: [_; LINE_WAYS.len()] = std::array::from_fn(|way| columns.pattern(pattern(way)));
         for (n, &change) in changes.iter().enumerate() {
             for (way, &pattern) in patterns.iter().enumerate() {

@@ -268,16 +268,10 @@ impl Gram {
         self.project_block(&self.blocks[0], &self.solved(), jitter_m2)
     }
 
-    /// The same for every block.
-    pub fn project_all(&self, jitter_m2: f64) -> Vec<Projected> {
+    /// The same for any block, by its number, at any variance of the readings: what no columns decide is solved once.
+    pub fn projections(&self) -> impl Fn(usize, f64) -> Projected + Sync {
         let solved = self.solved();
-        self.blocks.par_iter().map(|block| self.project_block(block, &solved, Some(jitter_m2))).collect()
-    }
-
-    /// The same for one block, at any variance of the readings.
-    pub fn at_variances(&self, block: usize) -> impl Fn(f64) -> Projected {
-        let solved = self.solved();
-        move |jitter_m2| self.project_block(&self.blocks[block], &solved, Some(jitter_m2))
+        move |block, jitter_m2| self.project_block(&self.blocks[block], &solved, Some(jitter_m2))
     }
 
     fn project_block<'a>(

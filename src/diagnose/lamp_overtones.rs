@@ -1,10 +1,8 @@
 //! The overtone of a lamp that flickers: a filament has next to none, a discharge or a rectified supply has.
 
-use super::bounds::is_bounded;
-use super::completed::NEEDED_NATS;
+use super::completed::clearly_better;
 use super::data::Data;
-use super::finished::finished;
-use super::fit::{Fit, fit_below};
+use super::fit::Fit;
 use super::lamps::FLICKER;
 use super::noise::Noise;
 use super::pieces::Piece;
@@ -24,14 +22,14 @@ pub fn with_overtone(data: &Data, fitted: Fit, noise: Noise) -> Fit {
     if count == 0 {
         return fitted;
     }
-    let most = fitted.cost() - NEEDED_NATS;
-    let with = finished(data, fit_below(data, &fitted, pieces, noise, most), noise);
     // Frames may see twice the frequency as the frequency itself: both at once are anything then.
     let size = |piece: &Piece, number: usize| piece.values[number].hypot(piece.values[number + 1]);
-    let mut pairs = with.pieces.iter().zip(&fitted.pieces).filter(|(piece, _)| piece.effect.name == FLICKER);
-    let is_overtone = pairs.all(|(with, without)| {
+    let is_overtone = |(with, without): (&Piece, &Piece)| {
         let (own, before) = (size(with, FUNDAMENTAL), size(without, FUNDAMENTAL));
-        size(with, OVERTONE) < own && own < MOST * before && before < MOST * own
-    });
-    if with.cost() < most && is_overtone && !is_bounded(&with) { with } else { fitted }
+        with.effect.name != FLICKER
+            || size(with, OVERTONE) < own && own < MOST * before && before < MOST * own
+    };
+    let with = clearly_better(data, &fitted, pieces, noise)
+        .filter(|with| with.pieces.iter().zip(&fitted.pieces).all(is_overtone));
+    with.unwrap_or(fitted)
 }

@@ -19,6 +19,7 @@ use super::read_anew::explained;
 use super::ripples::Ripple;
 use super::swings::{Comes, Swing};
 use super::velocities::is_of_place;
+use rayon::prelude::*;
 
 /// Evidence (nats) from which on a coordinate counts as located.
 pub const LOCATED_NATS: f64 = 4.0;
@@ -105,7 +106,9 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     let merge = |a: Seen, b: Seen| (a.0.and(b.0), a.1.and(b.1), a.2.and(b.2), a.3.and(b.3));
     let (gram, (clusters, profiles, codes, patches)) =
         Gram::with_blocks(data, &tangents, noise, &|_| true, &sizes, &fill, &visit, &merge);
-    let projected = gram.project_all(base.jitter_m2);
+    let project = gram.projections();
+    let projected: Vec<Projected> =
+        (0..sizes.len()).into_par_iter().map(|block| project(block, base.jitter_m2)).collect();
     let mut columns: Vec<Located> = coordinates
         .iter()
         .zip(projected)
@@ -116,7 +119,8 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
             let blocks = [vec![all], parts(coordinate.name, &ranges, size)].concat();
             let fitted = base.columns.len();
             let read_anew = |column: usize| {
-                explained(&gram.at_variances(number), base.jitter_m2, fitted, fitted + column)
+                let at = |jitter_m2: f64| project(number, jitter_m2);
+                explained(&at, base.jitter_m2, fitted, fitted + column)
             };
             let is_place = |column: usize| is_of_place(coordinate.name, column);
             let Said { ln_bayes, chi2, best, kind } =

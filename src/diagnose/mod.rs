@@ -54,6 +54,7 @@ mod judge;
 mod lamp_overtones;
 mod lamps;
 mod left_out;
+mod line_ways;
 mod lines;
 mod location;
 mod marginal;

@@ -1,6 +1,7 @@
 //! Parts of a coordinate's columns: one way of being off alone may say it by fewer numbers than all.
 
-use super::coordinates::{LINE_WAYS, MODES, OF_RANGE};
+use super::coordinates::{MODES, OF_RANGE};
+use super::line_ways::LINE_WAYS;
 use super::ranges::Ranges;
 use super::velocities::OF_RUN;
 
@@ -94,7 +95,8 @@ mod tests {
             position_m: (0.0, 1.0),
             speed_m_s: 1.0,
             velocity_m_s: (-1.0, 1.0),
-            alternates: true,
+            rows: vec![[0.0; LINE_WAYS.len()]; 4],
+            columns: vec![[0.0; LINE_WAYS.len()]; 4],
             duration_s: vec![1.0; frames.len()],
             has_places: true,
             has_sets: true,

@@ -323,7 +323,7 @@ mod tests {
         assert_eq!(area.patches((4, 4)).count(), 0);
     }
 
-    /// Of a normal distribution half of the squares are above 0.455, and a tenth above 2.706: twice as much scatter has four times that.
+    /// Of a normal distribution half of the squares are above 0.455, and three tenths above 1.074: twice as much scatter has four times that.
     #[test]
     fn what_most_patches_say_is_taken_from_each() {
         let squares = |scale: f64| -> Vec<f64> {

@@ -324,7 +324,7 @@ pub fn words(cluster: &Cluster) -> String {
 mod tests {
     use super::{Location, OF_THE_FASTEST, deflated, is_beyond_forms, is_most, of_name, ordered, plain};
     use crate::diagnose::jitters::Jitters;
-    use crate::diagnose::location::Located;
+    use crate::diagnose::location::{Kind, Located};
 
     /// A time of frames beside charge crosstalk: 300 of chi squared by fifteen columns of the velocity, 115 nats, where such errors raise the variance 2.8 times
     /// on average, and sixty times in the fastest frames.
@@ -337,7 +337,7 @@ mod tests {
                 ln_bayes: 115.0,
                 chi2: (300.0, 15),
                 looked: 1.0,
-                kind: crate::diagnose::location::Kind::Columns,
+                kind: Kind::Columns,
             };
             let location = Location {
                 columns: vec![located],

@@ -1,6 +1,7 @@
 //! What the coordinates range over in a campaign.
 
 use super::data::Data;
+use super::line_ways::{Ways, ways};
 use crate::frames::Geometry;
 use crate::physics::{Moment, Pixels};
 
@@ -23,8 +24,10 @@ pub struct Ranges {
     pub speed_m_s: f64,
     /// Least and greatest velocity, m/s.
     pub velocity_m_s: (f64, f64),
-    /// Whether every other row and column of those that are looked at is every other one of the sensor.
-    pub alternates: bool,
+    /// How each pixel's row differs from others.
+    pub rows: Vec<Ways>,
+    /// The same of its column.
+    pub columns: Vec<Ways>,
     /// Duration of each recording, s.
     pub duration_s: Vec<f64>,
     /// Frames a set of each recording, and the first number of its frames among those of all schemes.
@@ -56,8 +59,10 @@ impl Ranges {
         let at_1m = spread(least_greatest(&mut targets.map(light)));
         let schemes = data.schemes();
         let first = |frames: usize| schemes.iter().take_while(|&&other| other < frames).sum();
+        // Whether every other line of those that are looked at is every other one of the sensor.
+        let (geometry, alternates) = (data.geometry(), data.grid.every % 2 == 1);
         Self {
-            geometry: data.geometry(),
+            geometry,
             is_still,
             tells_constant: (0..pixels.count()).map(|pixel| data.tells_constant(pixel)).collect(),
             position_m,
@@ -65,7 +70,8 @@ impl Ranges {
             has_sets: moments().any(|moment| moment.set > 0),
             speed_m_s: moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max),
             velocity_m_s: least_greatest(&mut moments().map(|moment| moment.velocity_m_s)),
-            alternates: data.grid.every % 2 == 1,
+            rows: ways(&pixels.target, geometry.height, alternates, |pixel| geometry.row_column(pixel).0),
+            columns: ways(&pixels.target, geometry.width, alternates, |pixel| geometry.row_column(pixel).1),
             duration_s: data.takes.iter().map(|t| t.moments.last().map_or(0.0, |m| m.time_s)).collect(),
             frames: data.takes.iter().map(|take| (take.frames, first(take.frames))).collect(),
             frame_numbers: schemes.iter().sum(),

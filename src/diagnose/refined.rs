@@ -9,7 +9,7 @@ use super::fit::{End, Fit, WHOLE, fit_led};
 use super::lamp_overtones::with_overtone;
 use super::lamps::FLICKER;
 use super::noise::Noise;
-use super::overtones::{OF_CODES, is_longer, is_wave};
+use super::overtones::{OF_CODES, is_longer};
 use super::pieces::Piece;
 use super::roundings::OF_SHIFTER;
 use super::whole_rounding::with_whole_rounding;
@@ -50,7 +50,7 @@ fn with_choice(piece: &Piece, choice: &str, chosen: f64) -> Option<Piece> {
 
 /// What is `fitted` [as it is](UNCHANGED), and with each of what is seldom of the effect `name`.
 fn ways(fitted: &Fit, name: &'static str) -> Vec<Entrant> {
-    let is_of = |piece: &Piece| piece.effect.name == name && (name != OF_CODES || is_wave(piece));
+    let is_of = |piece: &Piece| piece.effect.name == name;
     let other = |choice: &str, chosen: f64| -> Option<Vec<Piece>> {
         let anew = |piece: &Piece| {
             if is_of(piece) { with_choice(piece, choice, chosen) } else { Some(piece.clone()) }

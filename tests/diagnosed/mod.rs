@@ -36,6 +36,15 @@ pub fn verdict(campaign: &Path) -> Value {
     verdict
 }
 
+/// The same of a campaign, simulated with these `options`, as `change` leaves it. Not every test changes one.
+#[allow(dead_code)]
+pub fn verdict_on_changed(options: &[&str], change: impl Fn(&Path)) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let campaign = simulated(folder.path().join("campaign"), options);
+    change(&campaign);
+    verdict(&campaign)
+}
+
 /// Value and standard deviation of a parameter of an effect that is asserted. Not every test asks for one.
 #[allow(dead_code)]
 pub fn parameter(verdict: &Value, name: &str) -> (f64, f64) {
