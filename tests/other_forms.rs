@@ -1,4 +1,4 @@
-//! `vuris diagnose` on what is known by one form, and comes in another: wells that few samples fill, shifters of many settings, encoders that control what they
+//! `vuris diagnose` on what is known by one form, and comes in another: wells that few samples fill, or that have a knee, shifters of many settings, encoders that control what they
 //! measure, noise of few samples, emitters on one side, scatter nearby, taps of half a turn, bits of a wrong weight, walls by another law or on one side, light that
 //! fades unevenly.
 
@@ -55,9 +55,28 @@ fn a_well_that_few_samples_fill_is_found() {
         let missing = 1.0 - (code - camera.pedestal_dn) / full_dn;
         let verdict = verdict_of(RECORDINGS, &format!("saturation:missing={missing:.4}"));
         assert_eq!(names(&verdict), ["saturation"], "{share}: {verdict:#}");
+        assert!(!verdict["effects"][0]["parameters"].to_string().contains("knee"), "{share}: {verdict:#}");
+        // However few the sets are that show it.
+        assert_eq!(verdict["verdict"], "explained", "{share}: {verdict:#}");
         let (found, sigma) = parameter(&verdict, "missing");
         // The number of samples that are beyond it is whole, and its slope has steps: 4 DN.
         assert!((found - missing).abs() < 1e-3 && sigma < 1e-3, "{share}: {found} +- {sigma}, not {missing}");
+    }
+}
+
+/// A well that becomes full softly: where it is full is found in spite of that.
+#[test]
+fn a_well_that_is_not_full_at_once_has_a_knee() {
+    for knee in [0.015, 0.04] {
+        let verdict =
+            explained("four-rail,wdft-rail,four-sweep", &format!("saturation:missing=0.75,knee={knee}"));
+        for (name, truth) in [("missing", 0.75), ("knee", knee)] {
+            let (value, sigma) = parameter(&verdict, name);
+            assert!(
+                (value - truth).abs() < 4.0 * sigma && sigma < 1e-3,
+                "{name}: {value} +- {sigma}, not {truth}"
+            );
+        }
     }
 }
 

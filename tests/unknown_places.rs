@@ -1,4 +1,4 @@
-//! `vuris diagnose` on what no library has, in a few pixels for a while, in every other row, or wherever the target is at certain places: located, and not named.
+//! `vuris diagnose` on what no library has, in a few pixels for a while, in every other row, in two columns, or wherever the target is at certain places: located, and not named.
 
 mod diagnosed;
 mod rewritten;
@@ -51,6 +51,19 @@ fn rows_that_take_turns_are_seen_as_such() {
         });
     // On a rail the distance grows with the time.
     is_located(&verdict, "row", &["every other line with "]);
+}
+
+/// The converters of two columns sag where the light is bright.
+#[test]
+fn columns_that_sag_in_bright_light_are_seen_as_such() {
+    const BRIGHT_DN: f64 = 700.0;
+    let verdict = verdict_of("four-rail,wdft-rail,wdft-sweep", |campaign| {
+        rewrite(campaign, |Sample { column, code, .. }| {
+            let beyond_dn = if (9..11).contains(&column) { (code - BRIGHT_DN).max(0.0) } else { 0.0 };
+            code - 0.06 * beyond_dn
+        });
+    });
+    is_located(&verdict, "column", &["columns 9 to 10", "at signals "]);
 }
 
 /// The supply gives way whenever the carriage's motor is at a pole: more light is no error of the encoder.

@@ -8,9 +8,10 @@ use super::columns::Tangents;
 use super::data::Data;
 use super::fit::{Fit, beside, fit, improved};
 use super::held_frames::Holding;
+use super::improvement::z;
 use super::jitters::Jitters;
 use super::noise::Noise;
-use super::seen::{Agreement, BLOCKS, Seen, agreement, seen};
+use super::seen::{Agreement, HALVES, Seen, agreement, seen};
 use super::set_errors::Jitter;
 use super::untold::untold;
 use rayon::prelude::*;
@@ -25,7 +26,7 @@ pub struct HeldOut {
     pub after: Agreement,
     /// Each scheme's frames a set, and the agreement of its sets before and after.
     pub by_frames: Vec<(usize, Agreement, Agreement)>,
-    /// The improvement of the likelihood over its scatter from set to set; of few sets, from block to block of the image.
+    /// The improvement of the likelihood over its scatter from set to set; of few sets from block to block of the image, and where few sets show it, from pixel to pixel.
     pub z: f64,
     /// Sets that were predicted.
     pub sets: usize,
@@ -94,31 +95,17 @@ pub fn held_out(data: &Data, before: Predictor, after: Predictor) -> HeldOut {
         true => with_jitters(new, [0, 1].map(|kind| after.jitters[kind] || included[kind] > 0.0)),
         false => with_included(new),
     };
-    // Frames of a set are not predicted independently, blocks of the image are; what is off at random by frames is not of a block.
-    let of_blocks = |(old, new): (&Seen, &Seen)| -> Vec<f64> {
-        let blocks = BLOCKS * new.fold / HALVES..BLOCKS * (new.fold + 1) / HALVES;
-        blocks.map(|block| old.of_blocks[block] - new.of_blocks[block]).collect()
-    };
-    let differences: Vec<f64> = match is_few && !after.has_jitters() {
-        true => old.iter().zip(&new).flat_map(of_blocks).collect(),
-        false => old.iter().zip(&new).map(|(old, new)| old.unlikely - new.unlikely).collect(),
-    };
-    let count = differences.len().max(1) as f64;
-    let mean = differences.iter().sum::<f64>() / count;
-    let scatter = (differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / count).sqrt();
     let by_frames = data.schemes().into_iter().map(|frames| {
         let of = |seen: &[Seen]| {
-            let of: Vec<Seen> =
-                seen.iter().filter(|seen| data.takes[seen.take].frames == frames).cloned().collect();
-            agreement(&of)
+            agreement(&seen.iter().filter(|seen| data.takes[seen.take].frames == frames).collect::<Vec<_>>())
         };
         (frames, of(&old), of(&new))
     });
     HeldOut {
-        before: agreement(&old),
-        after: agreement(&new),
+        before: agreement(&old.iter().collect::<Vec<_>>()),
+        after: agreement(&new.iter().collect::<Vec<_>>()),
         by_frames: by_frames.collect(),
-        z: if scatter > 0.0 { mean / scatter * count.sqrt() } else { 0.0 },
+        z: z(&old, &new, is_few, after.has_jitters() || !is_few && included != [0.0; 2]),
         sets: if is_few { holding.map_or(0, |_| data.sets().len()) } else { old.len() },
     }
 }
@@ -147,9 +134,6 @@ fn with_jitter(mut set: Seen, [phase_rad, time_s]: Jitter) -> Seen {
     }
     set
 }
-
-/// Halves of the image.
-const HALVES: usize = 2;
 
 /// A half of the image, some frames at a time: `(a number of its own for each set, what it shows)`.
 fn predicted_half(data: &Data, by: Predictor, holding: &Holding, half: usize) -> Vec<(usize, Seen)> {

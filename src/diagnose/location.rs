@@ -9,6 +9,7 @@ use super::evidence::{Block, Evidence, Greatest};
 use super::fit::Fit;
 use super::gram::{Gram, Whitened};
 use super::jitters::Jitters;
+use super::lines_at_signals::LinesAtSignals;
 use super::noise::Noise;
 use super::parts::parts;
 use super::patches::Patches;
@@ -50,7 +51,7 @@ pub enum Kind {
     Place,
     /// A line or a wave, over what noise there is.
     Wave,
-    /// A patch of pixels.
+    /// A patch of pixels, or a few lines.
     Patch,
 }
 
@@ -74,7 +75,7 @@ pub struct Location {
 }
 
 /// What is seen frame by frame.
-type Seen = (Clusters, Profiles, Codes, Patches);
+type Seen = (Clusters, Profiles, Codes, Patches, LinesAtSignals);
 
 impl Located {
     /// A wave, the strongest of those that were looked at.
@@ -95,16 +96,17 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let view = View { moment, take, frame, pixels: &base.pixels, ranges: &ranges };
         coordinates.iter().map(|coordinate| (coordinate.fill)(&view)).collect()
     };
-    let visit = |(clusters, profiles, codes, patches): Seen, whitened: &Whitened| {
+    let visit = |(clusters, profiles, codes, patches, lines): Seen, whitened: &Whitened| {
         (
             clusters.with(data, whitened),
             profiles.with(data, &ranges, base, whitened),
             codes.with(whitened, base.pixels.pedestal_dn),
             patches.with(data, whitened),
+            lines.with(&ranges, whitened),
         )
     };
-    let merge = |a: Seen, b: Seen| (a.0.and(b.0), a.1.and(b.1), a.2.and(b.2), a.3.and(b.3));
-    let (gram, (clusters, profiles, codes, patches)) =
+    let merge = |a: Seen, b: Seen| (a.0.and(b.0), a.1.and(b.1), a.2.and(b.2), a.3.and(b.3), a.4.and(b.4));
+    let (gram, (clusters, profiles, codes, patches, lines)) =
         Gram::with_blocks(data, &tangents, noise, &|_| true, &sizes, &fill, &visit, &merge);
     let project = gram.projections();
     let projected: Vec<Projected> =
@@ -151,10 +153,13 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
         let shape = format!("with a period of {:.1} DN", wave.period_dn);
         Located::wave("code", shape, wave.found)
     }));
-    columns.extend(patches.strongest(data, &gram.inverses()).map(|patch| {
-        let shape = patch.shape(data, &ranges);
-        Located { kind: Kind::Patch, ..Located::wave("time_s", shape, patch.found) }
-    }));
+    let inverses = gram.inverses();
+    let patch =
+        |coordinate, shape, found| Located { kind: Kind::Patch, ..Located::wave(coordinate, shape, found) };
+    let of_patch = patches.strongest(data, &inverses);
+    columns.extend(of_patch.map(|of| patch("time_s", of.shape(data, &ranges), of.found)));
+    let of_lines = lines.strongest(data, &inverses);
+    columns.extend(of_lines.map(|of| patch(of.coordinate(), of.shape(data, &ranges), of.found)));
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
     let mut ranked = clusters.ranked();
     // Beside errors that the noise has, columns are no more than they seem.

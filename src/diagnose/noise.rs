@@ -42,8 +42,9 @@ impl Noise {
         1.0 / self.variance(signal_dn)
     }
 
+    /// The variance of a sample at a signal, DN².
     #[inline(always)]
-    fn variance(&self, signal_dn: f64) -> f64 {
+    pub fn variance(&self, signal_dn: f64) -> f64 {
         let signal_dn = signal_dn.max(0.0);
         self.floor + signal_dn * (self.slope + signal_dn * self.square)
     }

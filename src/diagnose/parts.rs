@@ -97,6 +97,7 @@ mod tests {
             velocity_m_s: (-1.0, 1.0),
             rows: vec![[0.0; LINE_WAYS.len()]; 4],
             columns: vec![[0.0; LINE_WAYS.len()]; 4],
+            signals_dn: vec![1.0],
             duration_s: vec![1.0; frames.len()],
             has_places: true,
             has_sets: true,

@@ -1,5 +1,6 @@
 //! Neighbouring pixels that are off together in a part of a recording: what sits before the lens for a while, condenses on it, or warms a corner of the sensor.
 
+use super::areas::{Rectangle, SEEN, Said, Search, leave_common};
 use super::columns::OWN;
 use super::data::Data;
 use super::evidence::Greatest;
@@ -17,13 +18,6 @@ const PARTS: usize = 8;
 /// Rows and columns of a patch; as many as there are (0): a few whole lines.
 const SIZES: [(usize, usize); 13] =
     [(2, 2), (3, 3), (4, 4), (6, 6), (8, 8), (1, 0), (2, 0), (3, 0), (4, 0), (0, 1), (0, 2), (0, 3), (0, 4)];
-/// A pixel counts for so many standard deviations at most: one alone is no patch.
-const MOST_SIGMAS: f64 = 4.0;
-/// What is nearly all absorbed by the pixel's own numbers is rounding.
-const SEEN: f64 = 1e-3;
-/// Shares of a recording's patches of one size, and chi squared of one degree that noise makes so often (Abramowitz and Stegun 1964, table 26.8).
-const USUAL: [(f64, f64); 2] = [(0.5, 0.455), (0.3, 1.074)];
-
 /// Sums of a way of being off: score, information, and what it shares with the pixel's own numbers.
 const OF_MODE: usize = 2 + OWN;
 const SUMS: usize = MODES.len() * OF_MODE;
@@ -65,9 +59,6 @@ impl Patch {
         format!("{} in {place}, from {from_s:.1} to {to_s:.1} s of {}", self.mode, data.takes[self.take].name)
     }
 }
-
-/// What a pixel says of one way of being off in one part: score and information.
-type Said = (f64, f64);
 
 impl Patches {
     /// With one more frame.
@@ -123,37 +114,21 @@ impl Patches {
         let looked = (data.takes.len() * spans().count() * MODES.len() * inverses.len()) as f64;
         let mut all = Vec::new();
         for take in 0..data.takes.len() {
-            let mut squares: [Vec<f64>; SIZES.len()] = Default::default();
-            let mut greatest: [Option<Patch>; SIZES.len()] = Default::default();
+            let mut search = Search::of(&SIZES);
             for (from, to) in
                 spans().filter(|(from, to)| [from, to].iter().all(|part| self.has(take, **part)))
             {
-                let area =
-                    Area::of(&self.said(data, inverses, mode, take, (from, to)), data.geometry().width);
-                for ((&size, squares), greatest) in SIZES.iter().zip(&mut squares).zip(&mut greatest) {
-                    let (height, width) = area.size(size);
-                    for (row, column, (score, information)) in area.patches((height, width)) {
-                        let chi2 = score * score / information;
-                        squares.push(chi2);
-                        if greatest.as_ref().is_none_or(|patch| chi2 > patch.found.chi2.0) {
-                            *greatest = Some(Patch {
-                                mode: MODES[mode],
-                                take,
-                                rows: (row, row + height - 1),
-                                columns: (column, column + width - 1),
-                                times: (from as f64 / PARTS as f64, (to + 1) as f64 / PARTS as f64),
-                                found: Greatest::of(chi2, 1, looked),
-                            });
-                        }
-                    }
-                }
+                let said = self.said(data, inverses, mode, take, (from, to));
+                search.look(&said, data.geometry().width, (from, to));
             }
-            let over_usual = |(squares, patch): (&mut Vec<f64>, Option<Patch>)| {
-                let patch = patch?;
-                let found = Greatest::of(patch.found.chi2.0 / inflation(squares), 1, looked);
-                Some(Patch { found, ..patch })
-            };
-            all.extend(squares.iter_mut().zip(greatest).filter_map(over_usual));
+            all.extend(search.end().map(|Rectangle { rows, columns, part: (from, to), chi2, .. }| Patch {
+                mode: MODES[mode],
+                take,
+                rows,
+                columns,
+                times: (from as f64 / PARTS as f64, (to + 1) as f64 / PARTS as f64),
+                found: Greatest::of(chi2, 1, looked),
+            }));
         }
         all
     }
@@ -185,79 +160,8 @@ impl Patches {
             if information > SEEN * raw { (sum(0, pixel), information) } else { (0.0, 0.0) }
         };
         let mut said: Vec<Said> = (0..pixels).map(of_pixel).collect();
-        for is_target in [false, true] {
-            let here = |pixel: usize| data.target[pixel] == is_target;
-            // A patch that is far off is no part of what all do: the median.
-            let of = said.iter().enumerate().filter(|(pixel, said)| here(*pixel) && said.1 > 0.0);
-            let mut off: Vec<f64> = of.map(|(_, (score, information))| score / information).collect();
-            let middle = off.len() / 2;
-            if off.is_empty() {
-                continue;
-            }
-            let common = *off.select_nth_unstable_by(middle, f64::total_cmp).1;
-            for (_, said) in said.iter_mut().enumerate().filter(|(pixel, _)| here(*pixel)) {
-                let most = MOST_SIGMAS * said.1.sqrt();
-                said.0 = (said.0 - common * said.1).clamp(-most, most);
-            }
-        }
+        leave_common(&mut said, &data.target);
         said
-    }
-}
-
-/// By how much patches say more than noise makes them, where most of them do, or many.
-fn inflation(squares: &mut [f64]) -> f64 {
-    let count = squares.len();
-    let usual = |(share, of_noise): (f64, f64)| {
-        let place = ((1.0 - share) * (count - 1) as f64) as usize;
-        *squares.select_nth_unstable_by(place, f64::total_cmp).1 / of_noise
-    };
-    USUAL.map(usual).into_iter().fold(1.0, f64::max)
-}
-
-/// Sums over all pixels above and to the left.
-struct Area {
-    width: usize,
-    height: usize,
-    /// `[row][column]`, with a first row and column of zeros.
-    sums: Vec<Said>,
-}
-
-impl Area {
-    fn of(said: &[Said], width: usize) -> Self {
-        let (height, line) = (said.len() / width, width + 1);
-        let mut sums = vec![(0.0, 0.0); (height + 1) * line];
-        for row in 0..height {
-            let mut of_row = (0.0, 0.0);
-            for column in 0..width {
-                let (score, information) = said[row * width + column];
-                of_row = (of_row.0 + score, of_row.1 + information);
-                let above = sums[row * line + column + 1];
-                sums[(row + 1) * line + column + 1] = (above.0 + of_row.0, above.1 + of_row.1);
-            }
-        }
-        Self { width, height, sums }
-    }
-
-    /// So many rows and columns, or all of them.
-    fn size(&self, (rows, columns): (usize, usize)) -> (usize, usize) {
-        (if rows == 0 { self.height } else { rows }, if columns == 0 { self.width } else { columns })
-    }
-
-    /// Patches of so many rows and columns of which anything is known: first row and column, and the sum.
-    fn patches(&self, (height, width): (usize, usize)) -> impl Iterator<Item = (usize, usize, Said)> {
-        let line = self.width + 1;
-        let (rows, columns) =
-            ((self.height + 1).saturating_sub(height), (self.width + 1).saturating_sub(width));
-        let at = move |row: usize, column: usize| self.sums[row * line + column];
-        let of = move |row: usize, column: usize| {
-            let (a, b) = (at(row, column), at(row + height, column + width));
-            let (c, d) = (at(row, column + width), at(row + height, column));
-            (row, column, (a.0 + b.0 - c.0 - d.0, a.1 + b.1 - c.1 - d.1))
-        };
-        let all = (0..rows).flat_map(move |row| (0..columns).map(move |column| of(row, column)));
-        // Of the whole, what is left of nothing by rounding is nothing.
-        let least = 1e-9 * self.sums.last().map_or(0.0, |all| all.1);
-        all.filter(move |(_, _, (_, information))| *information > least)
     }
 }
 
@@ -301,36 +205,5 @@ mod tests {
             let (shape, ln_bayes) = found(clean, 0.3);
             assert_eq!(ln_bayes, 0.0, "{clean:?}: {shape}");
         }
-    }
-
-    /// Of a sum over a rectangle nothing but the corners is asked.
-    #[test]
-    fn sums_over_areas_are_those_of_their_pixels() {
-        let said: Vec<Said> = (0..12).map(|pixel| (f64::from(pixel * pixel % 7), 1.0)).collect();
-        let area = Area::of(&said, 4);
-        let by_hand = |row: usize, column: usize, (height, width): (usize, usize)| -> f64 {
-            let rows = (row..row + height).flat_map(|row| (column..column + width).map(move |c| row * 4 + c));
-            rows.map(|pixel| said[pixel].0).sum()
-        };
-        for size in [(2, 2), area.size((1, 0)), area.size((0, 3)), (3, 3)] {
-            let patches: Vec<_> = area.patches(size).collect();
-            assert_eq!(patches.len(), (4 - size.0) * (5 - size.1));
-            for (row, column, (score, information)) in patches {
-                assert_eq!((score, information), (by_hand(row, column, size), (size.0 * size.1) as f64));
-            }
-        }
-        assert_eq!(area.size((1, 0)), (1, 4));
-        assert_eq!(area.patches((4, 4)).count(), 0);
-    }
-
-    /// Of a normal distribution half of the squares are above 0.455, and three tenths above 1.074: twice as much scatter has four times that.
-    #[test]
-    fn what_most_patches_say_is_taken_from_each() {
-        let squares = |scale: f64| -> Vec<f64> {
-            crate::physics::Draws::of(3, 1).normal(20_000).iter().map(|z| scale * z * z).collect()
-        };
-        assert!((1.0..1.05).contains(&inflation(&mut squares(1.0))));
-        assert!((3.9..4.2).contains(&inflation(&mut squares(4.0))));
-        assert_eq!(inflation(&mut squares(0.5)), 1.0);
     }
 }

@@ -254,7 +254,7 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
         let missing = |full_dn: f64| (1.0 - full_dn / full_scale_dn).clamp(least, most);
         let piece = |value: f64| Piece {
             effect,
-            values: vec![value],
+            values: [&[value], &effect.off()[1..]].concat(),
             free: vec![0],
             takes: (0..data.takes.len()).collect(),
             finite: true,

@@ -2,6 +2,7 @@
 
 use super::data::Data;
 use super::line_ways::{Ways, ways};
+use super::lines_at_signals::PARTS;
 use crate::frames::Geometry;
 use crate::physics::{Moment, Pixels};
 
@@ -28,6 +29,8 @@ pub struct Ranges {
     pub rows: Vec<Ways>,
     /// The same of its column.
     pub columns: Vec<Ways>,
+    /// Signals between some parts of equally many samples, ascending, DN.
+    pub signals_dn: Vec<f64>,
     /// Duration of each recording, s.
     pub duration_s: Vec<f64>,
     /// Frames a set of each recording, and the first number of its frames among those of all schemes.
@@ -72,6 +75,7 @@ impl Ranges {
             velocity_m_s: least_greatest(&mut moments().map(|moment| moment.velocity_m_s)),
             rows: ways(&pixels.target, geometry.height, alternates, |pixel| geometry.row_column(pixel).0),
             columns: ways(&pixels.target, geometry.width, alternates, |pixel| geometry.row_column(pixel).1),
+            signals_dn: data.quantiles_dn(PARTS),
             duration_s: data.takes.iter().map(|t| t.moments.last().map_or(0.0, |m| m.time_s)).collect(),
             frames: data.takes.iter().map(|take| (take.frames, first(take.frames))).collect(),
             frame_numbers: schemes.iter().sum(),

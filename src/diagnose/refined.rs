@@ -12,6 +12,7 @@ use super::noise::Noise;
 use super::overtones::{OF_CODES, is_longer};
 use super::pieces::Piece;
 use super::roundings::OF_SHIFTER;
+use super::soft_wells::{OF_WELLS, with_knee};
 use super::whole_rounding::with_whole_rounding;
 use crate::physics::effects::adc_nonlinearity::FORM;
 use rayon::prelude::*;
@@ -74,6 +75,9 @@ pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str)
     }
     if is_new(FLICKER) {
         fitted = with_overtone(data, fitted, noise);
+    }
+    if is_new(OF_WELLS) {
+        fitted = with_knee(data, fitted, noise);
     }
     if is_new(OF_SHIFTER) { with_whole_rounding(data, fitted, noise) } else { fitted }
 }

@@ -35,8 +35,8 @@ pub struct Seen {
     pub chi2: f64,
     /// Minus twice the logarithm of the likelihood, but for a constant.
     pub unlikely: f64,
-    /// The same of each of some [`BLOCKS`] of the image.
-    pub of_blocks: Vec<f64>,
+    /// The same of each pixel.
+    pub of_pixels: Vec<f64>,
     pub samples: usize,
     /// Squared difference of all samples, DN².
     pub square_dn2: f64,
@@ -47,8 +47,8 @@ pub struct Seen {
     pub distance_m: f64,
 }
 
-/// Blocks of the image, which noise makes differ by chance.
-pub const BLOCKS: usize = 16;
+/// Halves of the image.
+pub const HALVES: usize = 2;
 
 impl Seen {
     /// Both, of the same set.
@@ -57,7 +57,7 @@ impl Seen {
         self.jitters.extend(other.jitters);
         self.chi2 += other.chi2;
         self.unlikely += other.unlikely;
-        self.of_blocks.iter_mut().zip(other.of_blocks).for_each(|(block, other)| *block += other);
+        self.of_pixels.iter_mut().zip(other.of_pixels).for_each(|(pixel, other)| *pixel += other);
         self.samples += other.samples;
         self.square_dn2 += other.square_dn2;
         self.means_dn2 += other.means_dn2;
@@ -67,7 +67,7 @@ impl Seen {
 }
 
 /// Agreement of all `sets`.
-pub fn agreement(sets: &[Seen]) -> Agreement {
+pub fn agreement(sets: &[&Seen]) -> Agreement {
     let samples = sets.iter().map(|set| set.samples).sum::<usize>().max(1) as f64;
     let frames = sets.iter().map(|set| set.frames).sum::<usize>().max(1) as f64;
     let distances: Vec<f64> =
@@ -86,7 +86,7 @@ pub fn agreement(sets: &[Seen]) -> Agreement {
 /// What a set shows; nothing where it was left out.
 pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set: usize) -> Option<Seen> {
     let (noise, take) = (by.noise, &data.takes[number]);
-    let mut seen = Seen { take: number, of_blocks: vec![0.0; BLOCKS], ..Seen::default() };
+    let mut seen = Seen { take: number, of_pixels: vec![0.0; data.pixels()], ..Seen::default() };
     let mut phasors = vec![(Complex64::default(), Complex64::default()); data.pixels()];
     let mut arrived = Arrived::default();
     for frame in 0..take.frames {
@@ -94,15 +94,13 @@ pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set:
         let base = tangents.base(number, index);
         let (roots, residuals) = whiten(data, number, index, &base, noise);
         let measured = &take.signal_dn[index * data.pixels()..(index + 1) * data.pixels()];
-        for (block, unlikely) in seen.of_blocks.iter_mut().enumerate() {
-            let pixels = block * data.pixels() / BLOCKS..(block + 1) * data.pixels() / BLOCKS;
-            let [roots, residuals, base] =
-                [&roots[..], &residuals[..], &base[..]].map(|of| &of[pixels.clone()]);
-            let measured = &measured[pixels];
-            let squares = residuals.iter().map(|residual| residual * residual).sum::<f64>();
-            *unlikely += by.reference.ln_variance(measured, roots)
-                + tails(measured, base, roots, residuals).sum::<f64>()
-                + squares;
+        let tails = tails(measured, &base, &roots, &residuals);
+        for (pixel, (unlikely, tail)) in seen.of_pixels.iter_mut().zip(tails).enumerate() {
+            // Without weight it has no residual either.
+            if roots[pixel] > 0.0 {
+                let ratio = roots[pixel] * roots[pixel] * by.reference.variance(f64::from(measured[pixel]));
+                *unlikely += tail + residuals[pixel] * residuals[pixel] - ratio.ln();
+            }
         }
         if by.has_jitters() {
             let frame = tangents.frame(number, index, &mut arrived);
@@ -132,7 +130,7 @@ pub fn seen(data: &Data, tangents: &Tangents, by: Predictor, number: usize, set:
     let moment = &take.moments[set * take.frames];
     let has_distance = moment.lit && sum != Complex64::default();
     seen.distance_m = if has_distance { sum.arg() / phase_rad(1.0, moment.frequency_hz) } else { f64::NAN };
-    seen.unlikely = seen.of_blocks.iter().sum();
+    seen.unlikely = seen.of_pixels.iter().sum();
     (seen.samples > 0).then_some(seen)
 }
 

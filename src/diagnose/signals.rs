@@ -30,6 +30,13 @@ impl Data {
         darkest.zip(brightest).map_or(0.0, |(&darkest, brightest)| brightest - f64::from(darkest))
     }
 
+    /// Signals between so many parts of equally many samples, ascending, DN.
+    pub fn quantiles_dn(&self, parts: usize) -> Vec<f64> {
+        let some = self.ascending();
+        let edge = |part: usize| some.get(part * some.len() / parts).map_or(0.0, |&signal| f64::from(signal));
+        (1..parts).map(edge).collect()
+    }
+
     /// Signals at which a full well would show in some samples, descending, DN.
     pub fn full_wells_dn(&self) -> Vec<f64> {
         let some = self.ascending();

@@ -34,7 +34,7 @@ pub mod phase_step_errors;
 mod phase_step_scale;
 mod radial_axial_distance;
 mod response_decay;
-mod saturation;
+pub mod saturation;
 mod tap_mismatch;
 mod timing_jitter_of_frames;
 
