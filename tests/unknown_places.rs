@@ -56,14 +56,14 @@ fn rows_that_take_turns_are_seen_as_such() {
 /// The converters of two columns sag where the light is bright.
 #[test]
 fn columns_that_sag_in_bright_light_are_seen_as_such() {
-    const BRIGHT_DN: f64 = 700.0;
+    const BRIGHT_DN: f64 = 500.0;
     let verdict = verdict_of("four-rail,wdft-rail,wdft-sweep", |campaign| {
         rewrite(campaign, |Sample { column, code, .. }| {
-            let beyond_dn = if (9..11).contains(&column) { (code - BRIGHT_DN).max(0.0) } else { 0.0 };
-            code - 0.06 * beyond_dn
+            let beyond_dn = if (2..4).contains(&column) { (code - BRIGHT_DN).max(0.0) } else { 0.0 };
+            code - 0.02 * beyond_dn
         });
     });
-    is_located(&verdict, "column", &["columns 9 to 10", "at signals "]);
+    is_located(&verdict, "column", &["columns 2 to 3", "at signals "]);
 }
 
 /// The supply gives way whenever the carriage's motor is at a pole: more light is no error of the encoder.

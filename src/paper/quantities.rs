@@ -68,7 +68,11 @@ fn linearity(method: &Method, measured: Measured) -> Vec<Quantity> {
     ];
     for (what, name, value, why) in candidates {
         if let Some(effect) = effects::named(name) {
-            let values = value.map_or_else(|| effect.example(), |value| vec![value]);
+            let mut values = effect.example();
+            if let Some(value) = value {
+                values = effect.off();
+                values[0] = value;
+            }
             let rms_m = moved_m(vec![Active { effect, values }]);
             all.push(quantity(&format!("moved, {what}, RMS"), rms_m, None, MOVED, why.to_owned()));
         }
