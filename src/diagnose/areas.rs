@@ -1,9 +1,11 @@
 //! Neighbouring pixels together: what each says of one way of being off, summed over rectangles of them.
 
+use nalgebra::{Matrix4, Vector4};
+
 /// A pixel counts for so many standard deviations at most: one alone is no patch.
 const MOST_SIGMAS: f64 = 4.0;
 /// What is nearly all absorbed by the pixel's own numbers is rounding.
-pub const SEEN: f64 = 1e-3;
+const SEEN: f64 = 1e-3;
 /// Shares of the rectangles of one size, and chi squared of one degree that noise makes so often (Abramowitz and Stegun 1964, table 26.8).
 const USUAL: [(f64, f64); 2] = [(0.5, 0.455), (0.3, 1.074)];
 
@@ -61,6 +63,17 @@ impl<P: Copy> Search<P> {
         };
         self.squares.into_iter().zip(self.greatest).filter_map(over_usual)
     }
+}
+
+/// All spans of parts that follow one another, of so many: the first and the last of each.
+pub fn spans(parts: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..parts).flat_map(move |from| (from..parts).map(move |to| (from, to)))
+}
+
+/// What a pixel says beside its own numbers, of which `inverse` is that of their normal equations: `score` and `raw` information, and what they share with these.
+pub fn beside_own(score: f64, raw: f64, shared: Vector4<f64>, inverse: &Matrix4<f64>) -> Said {
+    let information = raw - shared.dot(&(inverse * shared));
+    if information > SEEN * raw { (score, information) } else { (0.0, 0.0) }
 }
 
 /// Takes from what pixels say what all of the target, or of the background, do, and of each what is beyond some standard deviations.

@@ -1,13 +1,12 @@
 //! Rows or columns that are off where the signal is of some height: amplifiers and converters of a line, which sag, or do not settle.
 
-use super::areas::{Rectangle, SEEN, Said, Search, leave_common};
+use super::areas::{Rectangle, Said, Search, beside_own, leave_common, spans};
 use super::columns::OWN;
 use super::data::Data;
 use super::evidence::Greatest;
 use super::gram::Whitened;
 use super::ranges::Ranges;
 use nalgebra::{Matrix4, Vector4};
-use std::ops::RangeInclusive;
 
 /// Signals are parted where so many parts have as many samples each; any parts that follow one another are looked at together.
 pub const PARTS: usize = 8;
@@ -97,13 +96,13 @@ impl LinesAtSignals {
             return None;
         }
         let geometry = data.geometry();
-        let spans = || (0..PARTS).flat_map(|from| (from..PARTS).map(move |to| (from, to)));
+        let noise: Vec<f64> = (0..inverses.len()).map(|pixel| self.noise(pixel, inverses.len())).collect();
         let mut search = Search::of(&SIZES);
-        for (from, to) in spans() {
-            search.look(&self.said(data, inverses, (from, to)), geometry.width, (from, to));
+        for part in spans(PARTS) {
+            search.look(&self.said(data, inverses, &noise, part), geometry.width, part);
         }
         let lines = (geometry.width + geometry.height) * SIZES.len() / 2;
-        let looked = (spans().count() * lines) as f64;
+        let looked = (spans(PARTS).count() * lines) as f64;
         let lines = |of: Rectangle<(usize, usize)>| {
             let are_columns = of.size.0 == 0;
             let lines = if are_columns { of.columns } else { of.rows };
@@ -112,20 +111,26 @@ impl LinesAtSignals {
         search.end().map(lines).max_by(|a, b| a.found.chi2.0.total_cmp(&b.found.chi2.0))
     }
 
-    /// What each pixel says at signals of some parts, beside its own numbers, and beside what all pixels of the target, or of the background, do there.
-    fn said(&self, data: &Data, inverses: &[Matrix4<f64>], (from, to): (usize, usize)) -> Vec<Said> {
+    /// One of a pixel's sums, over some parts.
+    fn sum(&self, (first, last): (usize, usize), number: usize, pixel: usize, pixels: usize) -> f64 {
+        (first..=last).map(|part| f64::from(self.sums[(part * pixels + pixel) * SUMS + number])).sum()
+    }
+
+    /// The variance of a pixel's noise over what is taken for it, where it is more: a pixel that is noisier than others knows less.
+    fn noise(&self, pixel: usize, pixels: usize) -> f64 {
+        let [squares, samples] =
+            [2 + OWN, 3 + OWN].map(|number| self.sum((0, PARTS - 1), number, pixel, pixels));
+        (squares / samples.max(1.0)).max(1.0)
+    }
+
+    /// What each pixel, of its `noise`, says at signals of some parts, beside its own numbers, and beside what all pixels of the target, or of the background, do there.
+    fn said(&self, data: &Data, inverses: &[Matrix4<f64>], noise: &[f64], part: (usize, usize)) -> Vec<Said> {
         let pixels = inverses.len();
         let of_pixel = |pixel: usize| {
-            let sum_of = |parts: RangeInclusive<usize>, number: usize| -> f64 {
-                parts.map(|part| f64::from(self.sums[(part * pixels + pixel) * SUMS + number])).sum()
-            };
-            let sum = |number: usize| sum_of(from..=to, number);
-            // A pixel that is noisier than others knows less.
-            let [squares, samples] = [2 + OWN, 3 + OWN].map(|number| sum_of(0..=PARTS - 1, number));
-            let noise = (squares / samples.max(1.0)).max(1.0);
-            let (raw, own) = (sum(1), Vector4::from_fn(|number, _| sum(2 + number)));
-            let information = raw - own.dot(&(inverses[pixel] * own));
-            if information > SEEN * raw { (sum(0) / noise, information / noise) } else { (0.0, 0.0) }
+            let sum = |number: usize| self.sum(part, number, pixel, pixels);
+            let own = Vector4::from_fn(|number, _| sum(2 + number));
+            let (score, information) = beside_own(sum(0), sum(1), own, &inverses[pixel]);
+            (score / noise[pixel], information / noise[pixel])
         };
         let mut said: Vec<Said> = (0..pixels).map(of_pixel).collect();
         leave_common(&mut said, &data.target);

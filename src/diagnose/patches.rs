@@ -1,6 +1,6 @@
 //! Neighbouring pixels that are off together in a part of a recording: what sits before the lens for a while, condenses on it, or warms a corner of the sensor.
 
-use super::areas::{Rectangle, SEEN, Said, Search, leave_common};
+use super::areas::{Rectangle, Said, Search, beside_own, leave_common, spans};
 use super::columns::OWN;
 use super::data::Data;
 use super::evidence::Greatest;
@@ -18,6 +18,7 @@ const PARTS: usize = 8;
 /// Rows and columns of a patch; as many as there are (0): a few whole lines.
 const SIZES: [(usize, usize); 13] =
     [(2, 2), (3, 3), (4, 4), (6, 6), (8, 8), (1, 0), (2, 0), (3, 0), (4, 0), (0, 1), (0, 2), (0, 3), (0, 4)];
+
 /// Sums of a way of being off: score, information, and what it shares with the pixel's own numbers.
 const OF_MODE: usize = 2 + OWN;
 const SUMS: usize = MODES.len() * OF_MODE;
@@ -110,13 +111,12 @@ impl Patches {
 
     /// The same of each recording and size, for one way of being off.
     fn strongest_of(&self, data: &Data, inverses: &[Matrix4<f64>], mode: usize) -> Vec<Patch> {
-        let spans = || (0..PARTS).flat_map(|from| (from..PARTS).map(move |to| (from, to)));
-        let looked = (data.takes.len() * spans().count() * MODES.len() * inverses.len()) as f64;
+        let looked = (data.takes.len() * spans(PARTS).count() * MODES.len() * inverses.len()) as f64;
         let mut all = Vec::new();
         for take in 0..data.takes.len() {
             let mut search = Search::of(&SIZES);
             for (from, to) in
-                spans().filter(|(from, to)| [from, to].iter().all(|part| self.has(take, **part)))
+                spans(PARTS).filter(|(from, to)| [from, to].iter().all(|part| self.has(take, **part)))
             {
                 let said = self.said(data, inverses, mode, take, (from, to));
                 search.look(&said, data.geometry().width, (from, to));
@@ -155,9 +155,7 @@ impl Patches {
         };
         let of_pixel = |pixel: usize| {
             let own = Vector4::from_fn(|number, _| sum(2 + number, pixel));
-            let raw = sum(1, pixel);
-            let information = raw - own.dot(&(inverses[pixel] * own));
-            if information > SEEN * raw { (sum(0, pixel), information) } else { (0.0, 0.0) }
+            beside_own(sum(0, pixel), sum(1, pixel), own, &inverses[pixel])
         };
         let mut said: Vec<Said> = (0..pixels).map(of_pixel).collect();
         leave_common(&mut said, &data.target);
