@@ -184,10 +184,16 @@ mod tests {
     /// A line of noisy pixels is none that sags, nor is a clean one.
     #[test]
     fn what_is_only_noisy_does_not_sag() {
-        let noisy = |_: usize, column: usize, signal: f64, draw: f64| {
-            signal + if column == 5 { 20.0 * draw } else { 0.0 }
+        let noisy_column = |line: usize, noise_dn: f64| {
+            found(|_, column, signal, draw| signal + if column == line { noise_dn * draw } else { 0.0 })
         };
-        for (shape, ln_bayes) in [found(noisy), found(|_, _, signal, _| signal)] {
+        let noisy_row = |line: usize, noise_dn: f64| {
+            found(|row, _, signal, draw| signal + if row == line { noise_dn * draw } else { 0.0 })
+        };
+        // With the noise that is stated, the second and the last two of these would be lines that sag.
+        let noisy = [noisy_column(5, 20.0), noisy_column(9, 40.0), noisy_row(5, 14.0), noisy_row(5, 20.0)];
+        let clean = found(|_, _, signal, _| signal);
+        for (shape, ln_bayes) in noisy.into_iter().chain([clean]) {
             assert!(ln_bayes < LOCATED_NATS, "{shape}: {ln_bayes}");
         }
     }
