@@ -68,7 +68,7 @@ study: build ## how often the diagnosis is right: docs/study.md (half an hour)
 
 PROOF := $(or $(CARGO_TARGET_DIR),target)/proof
 
-proof: build ## two hundred blind campaigns of a second generator: made, answered, scored (twenty minutes)
+proof: build ## two hundred blind campaigns of a second generator: made, answered, scored (half an hour)
 	rm -rf $(PROOF) $(PROOF)-labels.json
 	$(VURIS) challenge make --cases 200 --seed-from-entropy --out $(PROOF)
 	$(VURIS) challenge answer $(PROOF)

@@ -9,6 +9,7 @@ use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::Path;
 use vuris::frames::RawSets;
+use vuris::recording::Recording;
 
 /// Code at no light, of the simulated camera.
 const PEDESTAL_DN: f64 = 64.0;
@@ -66,25 +67,45 @@ fn columns_that_sag_in_bright_light_are_seen_as_such() {
     is_located(&verdict, "column", &["columns 2 to 3", "at signals "]);
 }
 
+/// Of every frame (of a recording, of a set, by its number) of a campaign so much `more` of all light than there was.
+fn with_more_light(campaign: &Path, more: impl Fn(&Recording, usize, usize) -> f64) {
+    rewrite_recordings(campaign, |_, recording| {
+        let (geometry, frames) = (recording.geometry(), recording.raw.frames_per_set());
+        let anew = |(at, &code): (usize, &u32)| {
+            let frame = at / geometry.pixels();
+            let light_dn = f64::from(code) - PEDESTAL_DN;
+            // A sixteenth of a code is too little to be seen in one: it is there in so many of sixteen.
+            let dithered = 0.5 + (((at * 7919) % 16) as f64 - 7.5) / 16.0;
+            let more_dn = more(recording, frame / frames, frame % frames) * light_dn;
+            (f64::from(code) + more_dn + dithered).floor() as u32
+        };
+        let codes = recording.raw.codes().iter().enumerate().map(anew).collect();
+        recording.raw = RawSets::new(geometry, frames, codes).unwrap();
+    });
+}
+
 /// The supply gives way whenever the carriage's motor is at a pole: more light is no error of the encoder.
 #[test]
 fn light_that_goes_with_the_place_is_no_error_of_the_encoder() {
     let verdict = verdict_of("four-rail,wdft-rail,four-motion", |campaign| {
-        rewrite_recordings(campaign, |_, recording| {
-            let (geometry, frames) = (recording.geometry(), recording.raw.frames_per_set());
-            let of_set = frames * geometry.pixels();
-            let anew = |(at, &code): (usize, &u32)| {
-                let place_m = recording.sets[at / of_set].position_m.unwrap();
-                let more = 2e-3 * (TAU * place_m / 0.31).cos();
-                // A sixteenth of a code is too little to be seen in one: it is there in so many of sixteen.
-                let dithered = 0.5 + (((at * 7919) % 16) as f64 - 7.5) / 16.0;
-                (f64::from(code) + more * (f64::from(code) - PEDESTAL_DN) + dithered).floor() as u32
-            };
-            let codes = recording.raw.codes().iter().enumerate().map(anew).collect();
-            recording.raw = RawSets::new(geometry, frames, codes).unwrap();
+        with_more_light(campaign, |recording, set, _| {
+            2e-3 * (TAU * recording.sets[set].position_m.unwrap() / 0.31).cos()
         });
     });
     is_located(&verdict, "position_m", &["a wave of 0.3"]);
+}
+
+/// The source's supply ripples: that is no lamp, though frames would see one of the mains' at such a frequency.
+#[test]
+fn a_source_that_ripples_is_heard_and_no_lamp() {
+    const HZ: f64 = 17.1;
+    let verdict = verdict_of("four-rail,four-sweep,wdft-motion", |campaign| {
+        with_more_light(campaign, |recording, set, frame| {
+            let time_s = recording.sets[set].time_s + frame as f64 * recording.frame_period_s;
+            3e-3 * (TAU * HZ * time_s + recording.sets.len() as f64).cos()
+        });
+    });
+    is_located(&verdict, "time_s", &["light, a tone of 17.10 Hz", "102.90 Hz"]);
 }
 
 /// A lamp that is no filament has an overtone: it is the same lamp.

@@ -11,6 +11,7 @@ use super::ripples::Ripples;
 use super::shared_variance::SharedVariance;
 use super::swings::{Seen, Swing, Swings};
 use super::tamed::tamed;
+use super::tones::{Heard, Tone, Tones};
 use super::waves::{Wave, Waves};
 use super::white::White;
 use std::sync::LazyLock;
@@ -59,6 +60,8 @@ pub const PHASE: usize = 2;
 pub const POSITION: usize = 3;
 /// Of [`MODES`], the velocity.
 const VELOCITY: usize = 4;
+/// Of [`MODES`], the camera's own light.
+const LIGHT: usize = 5;
 
 /// The first levels, of which there are few.
 const FEW: usize = 2;
@@ -115,6 +118,8 @@ pub struct Clusters {
     waves: [Waves; LINES.len()],
     /// Sets in time.
     swings: Swings,
+    /// Frames in time.
+    tones: Tones,
     /// Frames over the place.
     pub ripples: Ripples,
     /// Frames' errors of phase and time together.
@@ -137,16 +142,19 @@ impl Clusters {
         let velocity_m_s = moment.velocity_m_s;
         // From the middle of the set on, so that another velocity leaves its place where it is.
         let from_middle_s = moment.in_set_s - 0.5 * (take.frames - 1) as f64 * moment.frame_period_s;
+        let mut heard = [(0.0, 0.0); MODES.len()];
         let sizes = [1, geometry.height, width, blocks * geometry.height.div_ceil(2), geometry.pixels()];
-        for mode in 0..MODES.len() {
+        for (mode, all) in heard.iter_mut().enumerate() {
             // A set is at another place as a whole; a frame is only if it is taken at another time of a movement.
             if mode == POSITION || mode == VELOCITY {
                 let per = if mode == POSITION { 1.0 } else { from_middle_s };
                 for pixel in 0..whitened.roots.len() {
                     let value = whitened.roots[pixel] * frame.position[pixel] * per;
-                    self.set[mode].0 += value * whitened.residual[pixel];
-                    self.set[mode].1 += value * value;
+                    all.0 += value * whitened.residual[pixel];
+                    all.1 += value * value;
                 }
+                self.set[mode].0 += all.0;
+                self.set[mode].1 += all.1;
                 if mode == VELOCITY || velocity_m_s == 0.0 {
                     continue;
                 }
@@ -173,8 +181,9 @@ impl Clusters {
             }
             self.ripples.add(mode, whitened.take, [moment.commanded_m(), moment.position_m], sums[0][0]);
             if mode != POSITION {
-                self.set[mode].0 += sums[0][0].0;
-                self.set[mode].1 += sums[0][0].1;
+                *all = sums[0][0];
+                self.set[mode].0 += all.0;
+                self.set[mode].1 += all.1;
             }
             if mode == 0 {
                 let is_first = whitened.index == 0;
@@ -196,12 +205,17 @@ impl Clusters {
         }
         let Whitened { roots, residual, set, .. } = *whitened;
         self.jitters.add(Frame::seen(frame, roots, residual, (whitened.take, set), &moment));
+        let at = [moment.offset_rad, moment.commanded_m()];
+        if moment.lit {
+            let (take, number, time_s) = (whitened.take, (moment.set, moment.frame), moment.time_s);
+            let ways = [PHASE, LIGHT, POSITION].map(|mode| heard[mode]);
+            self.tones.add(Heard { take, number, time_s, at, ways });
+        }
         if (whitened.index + 1).is_multiple_of(take.frames) {
             let sums = std::mem::take(&mut self.set);
             // Without its light the camera has neither gain nor phase.
             let swinging =
                 std::array::from_fn(|mode| if mode == 0 || moment.lit { sums[mode] } else { (0.0, 0.0) });
-            let at = [moment.offset_rad, moment.commanded_m()];
             let (take, number, time_s) = (whitened.take, moment.set, moment.time_s);
             self.swings.add(Seen { take, number, time_s, at, modes: swinging });
             for (mode, sum) in sums.into_iter().enumerate() {
@@ -236,6 +250,7 @@ impl Clusters {
         let [more_rows, more_columns] = other.waves;
         self.waves = [rows.and(more_rows), columns.and(more_columns)];
         self.swings = self.swings.and(other.swings);
+        self.tones = self.tones.and(other.tones);
         self.ripples = self.ripples.and(other.ripples);
         self.jitters = self.jitters.and(other.jitters);
         self
@@ -250,6 +265,11 @@ impl Clusters {
     /// The strongest swings of sets in time.
     pub fn swings(&self) -> Vec<Swing> {
         self.swings.strongest()
+    }
+
+    /// The strongest tone of frames in time.
+    pub fn tone(&self) -> Option<Tone> {
+        self.tones.strongest()
     }
 
     /// Evidence with that of sets and frames.

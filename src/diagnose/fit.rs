@@ -274,6 +274,15 @@ pub fn improved(data: &Data, fit: &Fit, noise: Noise, counts: Counts) -> (Arc<Pi
     round.step(&fit.pixels, fit.pieces.clone(), &round.theta)
 }
 
+/// What `pieces` leave, chi squared, when their strengths, beside shapes that are held, and all that else is `fitted` follow by a step, of which a model is nearly linear; and they themselves.
+pub fn at_shapes(data: &Data, fitted: &Fit, pieces: Vec<Piece>, noise: Noise) -> (f64, Vec<Piece>) {
+    let round = |pixels: &Arc<Pixels>, pieces: &[Piece]| Round::new(data, pixels, pieces, noise, &|_| true);
+    let before = round(&fitted.pixels, &pieces);
+    let theta = before.theta(&fitted.pixels, &pieces, Stride::ShapesHeld);
+    let (pixels, pieces) = before.step(&fitted.pixels, pieces, &theta);
+    (round(&pixels, &pieces).left(), pieces)
+}
+
 /// The normal equations around a model, solved.
 struct Round {
     columns: Vec<Column>,

@@ -1,6 +1,6 @@
 //! Where a residual lives: every coordinate's evidence, by columns and by errors that samples share.
 
-use super::clusters::{Cluster, Clusters};
+use super::clusters::{Cluster, Clusters, Level};
 use super::codes::Codes;
 use super::columns::Tangents;
 use super::coordinates::{COORDINATES, Coordinate, View};
@@ -8,6 +8,7 @@ use super::data::Data;
 use super::evidence::{Block, Evidence, Greatest};
 use super::fit::Fit;
 use super::gram::{Gram, Whitened};
+use super::images::alike;
 use super::jitters::Jitters;
 use super::lines_at_signals::LinesAtSignals;
 use super::noise::Noise;
@@ -19,6 +20,7 @@ use super::ranges::Ranges;
 use super::read_anew::explained;
 use super::ripples::Ripple;
 use super::swings::{Comes, Swing};
+use super::tones::Tone;
 use super::velocities::is_of_place;
 use rayon::prelude::*;
 
@@ -147,6 +149,15 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     columns.extend(clusters.ripples.strongest().into_iter().map(|Ripple { mode, period_m, found }| {
         Located::wave("position_m", format!("{mode}, a wave of {period_m:.3} m"), found)
     }));
+    let mut ranked = clusters.ranked();
+    // Frames that are not off have no tone.
+    let are_off = |cluster: &Cluster| cluster.level == Level::Frame && cluster.ln_bayes > LOCATED_NATS;
+    let tone = ranked.iter().any(are_off).then(|| clusters.tone()).flatten();
+    let period_s =
+        data.takes.first().and_then(|take| take.moments.first()).map_or(0.0, |of| of.frame_period_s);
+    columns.extend(tone.map(|Tone { way, hz, found }| {
+        Located::wave("time_s", format!("{way}, a tone of {}", alike(hz, period_s)), found)
+    }));
     let wave_over_codes = codes.strongest();
     let period_dn = wave_over_codes.as_ref().map(|wave| wave.period_dn);
     columns.extend(wave_over_codes.map(|wave| {
@@ -161,7 +172,6 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     let of_lines = lines.strongest(data, &inverses);
     columns.extend(of_lines.map(|of| patch(of.coordinate(), of.shape(data, &ranges), of.found)));
     columns.sort_by(|a, b| b.ln_bayes.total_cmp(&a.ln_bayes));
-    let mut ranked = clusters.ranked();
     // Beside errors that the noise has, columns are no more than they seem.
     if noise.jitter != [0.0; 2] {
         // What rows, columns and neighbours share is its shadow there.

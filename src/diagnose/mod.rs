@@ -117,6 +117,7 @@ mod swings;
 mod tamed;
 mod together;
 mod tolerated;
+mod tones;
 mod tried;
 mod trust;
 mod uneven;

@@ -135,8 +135,8 @@ fn without(frames: &[(f64, Sum)], frequency: f64) -> Option<Vec<(f64, Sum)>> {
     Some(frames.iter().map(beside).collect())
 }
 
-/// A recording's frames, without what they share.
-fn beside_mean(frames: &[(f64, Sum)]) -> Vec<(f64, Sum)> {
+/// Frames, without what they share.
+pub fn beside_mean(frames: &[(f64, Sum)]) -> Vec<(f64, Sum)> {
     let (score, information) = frames.iter().fold((0.0, 0.0), |sum, (_, of)| (sum.0 + of.0, sum.1 + of.1));
     let mean = score / information;
     frames.iter().map(|(place_m, sum)| (*place_m, (sum.0 - mean * sum.1, sum.1))).collect()

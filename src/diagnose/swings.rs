@@ -148,10 +148,7 @@ impl Swings {
             takes.entry(seen.take).or_default().push(seen);
         }
         takes.retain(|_, sets| sets.len() >= LEAST_SETS);
-        let moves =
-            |sets: &Vec<&Seen>| [0, 1].map(|way| sets.iter().any(|set| set.at[way] != sets[0].at[way]));
-        let ways: BTreeSet<[bool; 2]> = takes.values().map(moves).collect();
-        if ways.len() < 2 {
+        if !move_apart(takes.values().map(|sets| sets.iter().map(|set| set.at))) {
             return Vec::new();
         }
         let of_mode = |mut sets: Vec<&Seen>| {
@@ -219,6 +216,16 @@ impl Found {
 
 fn is_coprime(one: usize, other: usize) -> bool {
     (2..=one.min(other)).all(|divisor| !one.is_multiple_of(divisor) || !other.is_multiple_of(divisor))
+}
+
+/// Whether recordings, each `at` these phase offsets and positions, do not all move alike.
+pub fn move_apart<T: Iterator<Item = [f64; 2]>>(takes: impl Iterator<Item = T>) -> bool {
+    let moves = |mut at: T| {
+        let first = at.next();
+        let differs = |way: usize, at: [f64; 2]| first.is_some_and(|first| first[way] != at[way]);
+        at.fold([false; 2], |moves, at| [0, 1].map(|way| moves[way] || differs(way, at)))
+    };
+    takes.map(moves).collect::<BTreeSet<[bool; 2]>>().len() > 1
 }
 
 /// From the first set to the last.
