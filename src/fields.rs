@@ -44,6 +44,11 @@ impl<'a> Fields<'a> {
         }
     }
 
+    /// A `problem` of the value that `field` has, told of that.
+    pub fn told_of(&self, field: &str, problem: Problem) -> Problem {
+        problem.moved_to(format_args!("{}: {}", self.file, self.name(field)))
+    }
+
     /// The table `field`, which must be there.
     pub fn section(&self, field: &str) -> Result<Fields<'a>> {
         self.optional_section(field)?

@@ -220,7 +220,7 @@ const CONTRAST: &str = r#"
 name = "contrast_loss"
 sentence = "The demodulation contrast is less for some seconds."
 acts_on = "signal"
-formula = "-share * amplitude * cos(angle - phase) * exp(-((time_s - 9) / 3)^2)"
+formula = "-share * amplitude * cos(angle - phase) * exp(0 - ((time_s - 9) / 3)^2)"
 [[effect.parameter]]
 name = "share"
 unit = "1"

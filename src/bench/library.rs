@@ -49,7 +49,7 @@ fn effect(fields: &Fields) -> Result<Effect> {
         ));
     }
     let formula = Formula::new(target, fields.text("formula", "a formula")?, &names)
-        .map_err(|problem| fields.refuse("formula", problem.found()))?;
+        .map_err(|problem| fields.told_of("formula", problem))?;
     let place = target.place();
     let values = |of: fn(&Parameter) -> f64| -> Vec<Option<f64>> {
         let values: Vec<f64> = parameters.iter().map(of).collect();

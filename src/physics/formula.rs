@@ -67,6 +67,34 @@ enum Variable {
     Coordinate(usize),
 }
 
+/// An operand of `text` of which a power is taken, with a minus before it that belongs to no difference: most languages take the power first, the parser takes it last.
+fn negated_power(text: &str) -> Option<&str> {
+    let is_sign = |at: usize| {
+        let before = text[..at].trim_end().chars().next_back();
+        before.is_none_or(|before| "(,+-*/%^".contains(before))
+    };
+    let mut signs = text.match_indices('-').map(|(at, _)| at).filter(|&at| is_sign(at));
+    signs.find_map(|at| {
+        let (operand, rest) = operand_of(text[at + 1..].trim_start());
+        rest.trim_start().starts_with('^').then_some(operand)
+    })
+}
+
+/// The number, name, call or bracket with which `text` begins, and what comes after it.
+fn operand_of(text: &str) -> (&str, &str) {
+    let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
+    let word = text.find(|c| !is_word(c)).unwrap_or(text.len());
+    if !text[word..].starts_with('(') {
+        return text.split_at(word);
+    }
+    let mut depth = 0;
+    let close = text[word..].find(|c| {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        depth == 0
+    });
+    text.split_at(close.map_or(text.len(), |close| word + close + 1))
+}
+
 /// A formula, and what it changes.
 #[derive(Debug, Clone)]
 pub struct Formula {
@@ -88,6 +116,16 @@ impl Formula {
             )
             .expected("parameters that are not called as a coordinate")
             .remedy("give the parameter another name"));
+        }
+        if let Some(operand) = negated_power(text) {
+            return Err(Problem::at(
+                "formula",
+                format_args!(
+                    "{text}: -{operand}^ may be the negative of a power, or the power of a negative"
+                ),
+            )
+            .expected(format_args!("(0 - {operand}^...) or (-{operand})^..."))
+            .remedy("write which of them it is"));
         }
         let expression: FlatEx<f64> = exmex::parse(text).map_err(|error| {
             Problem::at("formula", format_args!("{text}: {error}"))
@@ -148,6 +186,50 @@ impl Formula {
             for (value, change) in values.iter_mut().zip(&changes) {
                 *value += if is_share { *value * change } else { *change };
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a minus before a power means is asked; where it is said, the formula is what it says.
+    #[test]
+    fn a_minus_before_a_power_is_refused_and_no_other() {
+        for (text, operand) in [
+            ("a * exp(-((time_s - 9) / 3)^2)", "((time_s - 9) / 3)"),
+            ("-row ^2 * a", "row"),
+            ("a * -1.5^2", "1.5"),
+            ("a + (row * - cos(angle)^2)", "cos(angle)"),
+            ("2^-a^2", "a"),
+        ] {
+            assert_eq!(negated_power(text), Some(operand), "{text}");
+            let refused = Formula::new(Target::Signal, text, &["a"]).unwrap_err();
+            assert!(refused.to_string().contains(&format!("-{operand}^")), "{refused}");
+        }
+        let value = |text: &str| {
+            let formula = Formula::new(Target::Signal, text, &["a"]).unwrap();
+            formula.value(&[3.0], |_| 2.0, &mut Vec::new()).unwrap()
+        };
+        for (text, expected) in [
+            ("0 - a^2", -9.0),
+            ("(-a)^2", 9.0),
+            ("-(a^2)", -9.0),
+            ("row - a^2", -7.0),
+            ("(row) - a^2", -7.0),
+            ("0.1 * a - 2 * a^2", -17.7),
+            ("a^-1", 1.0 / 3.0),
+            ("-a * row", -6.0),
+        ] {
+            assert!((value(text) - expected).abs() < 1e-12, "{text}: {}", value(text));
+        }
+    }
+
+    #[test]
+    fn odd_texts_have_no_negated_power() {
+        for text in ["", "-", "-(", "--", "-)", "- (a", "é-", "-é(", "-1", "^-"] {
+            assert_eq!(negated_power(text), None, "{text}");
         }
     }
 }
