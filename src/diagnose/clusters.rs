@@ -11,7 +11,7 @@ use super::ripples::Ripples;
 use super::shared_variance::SharedVariance;
 use super::swings::{Seen, Swing, Swings};
 use super::tamed::tamed;
-use super::tones::{Heard, Tone, Tones};
+use super::tones::{Heard, Tone, Tones, WAYS};
 use super::waves::{Wave, Waves};
 use super::white::White;
 use std::sync::LazyLock;
@@ -61,7 +61,7 @@ pub const POSITION: usize = 3;
 /// Of [`MODES`], the velocity.
 const VELOCITY: usize = 4;
 /// Of [`MODES`], the camera's own light.
-const LIGHT: usize = 5;
+pub const LIGHT: usize = 5;
 
 /// The first levels, of which there are few.
 const FEW: usize = 2;
@@ -208,7 +208,7 @@ impl Clusters {
         let at = [moment.offset_rad, moment.commanded_m()];
         if moment.lit {
             let (take, number, time_s) = (whitened.take, (moment.set, moment.frame), moment.time_s);
-            let ways = [PHASE, LIGHT, POSITION].map(|mode| heard[mode]);
+            let ways = WAYS.map(|mode| heard[mode]);
             self.tones.add(Heard { take, number, time_s, at, ways });
         }
         if (whitened.index + 1).is_multiple_of(take.frames) {

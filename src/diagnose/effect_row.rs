@@ -89,7 +89,7 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) 
         let of_choices = other_choices::spread(data, fit, judgement.noise, number);
         let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
         for (parameter, known) in piece.effect.parameters.iter().enumerate() {
-            let column = fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
+            let column = fit.column_of(number, parameter);
             let sigma = column.map_or(0.0, |column| fit.sigma(column));
             let sigma = sigma.hypot(spread(images, fit, number, parameter)).hypot(of_choices[parameter]);
             let value = piece.values[parameter];

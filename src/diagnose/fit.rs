@@ -93,6 +93,11 @@ impl Fit {
         self.covariance[(column, column)].max(0.0).sqrt()
     }
 
+    /// The column of a piece's parameter, by their numbers; nothing where that is not fitted.
+    pub fn column_of(&self, piece: usize, parameter: usize) -> Option<usize> {
+        self.columns.iter().position(|column| (column.piece, column.parameter) == (piece, parameter))
+    }
+
     /// Its pieces but for those of the effect called `name`.
     pub fn pieces_without(&self, name: &str) -> Vec<Piece> {
         self.pieces.iter().filter(|piece| piece.effect.name != name).cloned().collect()

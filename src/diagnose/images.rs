@@ -119,8 +119,7 @@ impl Seen {
     fn of(data: &Data, fit: &Fit, number: usize) -> Option<Self> {
         let piece = fit.pieces.get(number).filter(|piece| piece.effect.name == FLICKER)?;
         let line = NUMBERS.map(|number| piece.values[number]);
-        let column =
-            |parameter: usize| fit.columns.iter().position(|c| c.piece == number && c.parameter == parameter);
+        let column = |parameter: usize| fit.column_of(number, parameter);
         // Of a line that is held somewhere nothing is known.
         let columns = [column(NUMBERS[0])?, column(NUMBERS[1])?, column(NUMBERS[2])?];
         let covariance = Matrix3::from_fn(|a, b| fit.covariance[(columns[a], columns[b])]);

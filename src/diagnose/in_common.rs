@@ -115,8 +115,7 @@ mod tests {
         let [_, ref piece] = found.pieces[..] else { panic!("{:?}", found.pieces) };
         assert_eq!((&piece.takes[..], &piece.free[..], numbers), (&[0, 1][..], &[0, 2][..], 1));
         for (parameter, truth) in [(0, 0.2), (2, 20.0)] {
-            let is_its = |column: &Column| (column.piece, column.parameter) == (1, parameter);
-            let sigma = found.sigma(found.columns.iter().position(is_its).unwrap());
+            let sigma = found.sigma(found.column_of(1, parameter).unwrap());
             let value = piece.values[parameter];
             assert!((value - truth).abs() < 3.0 * sigma && sigma < 0.2 * truth, "{value} +- {sigma}");
         }

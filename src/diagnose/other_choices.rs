@@ -35,7 +35,7 @@ pub fn spread(data: &Data, fitted: &Fit, noise: Noise, number: usize) -> Vec<f64
     };
     // Of times the tangent's own standard deviation is among them.
     let known = |place: usize| {
-        let column = fitted.columns.iter().position(|of| of.piece == number && of.parameter == place);
+        let column = fitted.column_of(number, place);
         if parameters[shape].is_choice { 0.0 } else { column.map_or(0.0, |column| fitted.sigma(column)) }
     };
     let of = |place: usize| {
@@ -75,7 +75,7 @@ fn other_times(
 ) -> Vec<(f64, Vec<f64>)> {
     let piece = &fitted.pieces[number];
     let fitted_s = piece.values[shape];
-    let column = fitted.columns.iter().position(|of| of.piece == number && of.parameter == shape);
+    let column = fitted.column_of(number, shape);
     let is_known = column.is_none_or(|column| fitted.sigma(column) <= HARDLY * fitted_s);
     let is_one = fitted.pieces.iter().filter(|other| other.effect.name == piece.effect.name).count() == 1;
     if is_known || !is_one {
@@ -140,7 +140,7 @@ mod tests {
         (piece.values[0], piece.values[2]) = (drift, 10.0);
         let fitted = fit(&data, Some(&unfitted(&data, noise)), vec![piece], noise, &|_| true);
         let spread = spread(&data, &fitted, noise, 0)[0];
-        let column = fitted.columns.iter().position(|column| column.parameter == 0).unwrap();
+        let column = fitted.column_of(0, 0).unwrap();
         let (sigma, error) = (fitted.sigma(column), (fitted.pieces[0].values[0] - drift).abs());
         [error / sigma, error / sigma.hypot(spread)]
     }

@@ -54,17 +54,28 @@ impl Scan {
         }
         let step = 1.0 / (FINENESS * longest);
         let count = ((high - low) / step).ceil() as usize;
-        let starts: Vec<usize> = (0..count).step_by(TOGETHER).collect();
-        let powers = starts.into_par_iter().flat_map_iter(|start| {
-            let mut powers = vec![0.0; TOGETHER.min(count - start)];
-            for (number, group) in groups.iter().enumerate() {
-                let turns = turns.get(number).map_or(&[][..], |turns| turns);
-                add_turned(group, turns, (low + start as f64 * step, step), sought, &mut powers);
-            }
-            powers
-        });
-        Some(Self { low, step, powers: powers.collect() })
+        Some(Self { low, step, powers: powers(groups, turns, (low, step), count, sought) })
     }
+}
+
+/// The powers at a `count` of frequencies from `low` on, a `step` apart, as [`Scan::turned`] has them.
+pub fn powers(
+    groups: &[Vec<(f64, Sum)>],
+    turns: &[Vec<f64>],
+    (low, step): (f64, f64),
+    count: usize,
+    sought: Sought,
+) -> Vec<f64> {
+    let starts: Vec<usize> = (0..count).step_by(TOGETHER).collect();
+    let powers = starts.into_par_iter().flat_map_iter(|start| {
+        let mut powers = vec![0.0; TOGETHER.min(count - start)];
+        for (number, group) in groups.iter().enumerate() {
+            let turns = turns.get(number).map_or(&[][..], |turns| turns);
+            add_turned(group, turns, (low + start as f64 * step, step), sought, &mut powers);
+        }
+        powers
+    });
+    powers.collect()
 }
 
 /// Where among `powers` the greatest is; 0 where there are none.

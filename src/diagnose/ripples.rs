@@ -1,7 +1,7 @@
 //! Ripples: light that comes and goes with the place of the target, whatever the time: by a motor's pole, or a slat before the emitter. Columns of the position are too coarse for
 //! more than a few periods. Errors of the phase are left to the encoder, whose they are as a rule.
 
-use super::clusters::MODES;
+use super::clusters::{LIGHT, MODES};
 use super::evidence::Greatest;
 use super::periodogram::{ANY, FINENESS, Scan, Sum, greatest, power};
 use super::swings::{LEAST_SETS, usual};
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// Modes that may be a ripple, of [`MODES`]: an offset, a gain, the camera's own light.
-const RIPPLING: [usize; 3] = [0, 1, 5];
+const RIPPLING: [usize; 3] = [0, 1, LIGHT];
 /// Fewer cycles over all places are what harmonics and walls do.
 const LEAST_CYCLES: f64 = 3.0;
 /// Cosine and sine.

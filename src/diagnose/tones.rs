@@ -2,9 +2,10 @@
 //! time are too coarse for it, and so are whole sets; errors of single frames say little of it.
 
 use super::amplitudes::agree;
+use super::clusters::{LIGHT, MODES, PHASE, POSITION};
 use super::evidence::Greatest;
 use super::lines::blur;
-use super::periodogram::{ANY, FINENESS, Sum, add_powers, chi2, greatest, longest};
+use super::periodogram::{ANY, FINENESS, Sum, chi2, greatest, longest, powers};
 use super::ripples::beside_mean;
 use super::swings::{LEAST_SETS, move_apart, usual};
 use crate::physics::cos_sin;
@@ -12,8 +13,8 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// Ways in which frames may be off together: in phase (rad), in proportion to the camera's own light, or as if the target were at another place (m).
-pub const WAYS: [&str; 3] = ["phase", "light", "position"];
+/// Ways in which frames may be off together, of [`MODES`]: in phase (rad), in proportion to the camera's own light, or as if the target were at another place (m), whether it moves or not.
+pub const WAYS: [usize; 3] = [PHASE, LIGHT, POSITION];
 
 /// A frame.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +56,8 @@ struct Recording {
     some: Vec<Vec<(f64, f64)>>,
     /// Numbers that were taken from it.
     taken: usize,
+    /// What its sets leave of a tone of each frequency that is looked at, a share.
+    left: Vec<f64>,
 }
 
 /// A tone's numbers in a recording: cosine and sine.
@@ -67,8 +70,6 @@ const MOST_PRODUCTS: f64 = 2e8;
 const SOME: usize = 8;
 const LEAST_LEFT: f64 = 0.2;
 const LEAST: f64 = 1e-6;
-/// Neighbouring frequencies that are looked at together.
-const TOGETHER: usize = 64;
 
 impl Tones {
     /// With one more frame; the frames of a set come one after the other.
@@ -111,24 +112,25 @@ impl Tones {
             return None;
         }
         let count = most as usize;
+        takes.iter_mut().for_each(|take| take.listen(step_hz, count));
         let strongest = |takes: &[Recording]| {
-            let powers: Vec<Vec<f64>> = takes.iter().map(|take| take.powers(step_hz, count)).collect();
+            let powers: Vec<Vec<f64>> = takes.iter().map(|take| take.powers(step_hz)).collect();
             let sums: Vec<f64> = (0..count).map(|at| powers.iter().map(|of| of[at]).sum()).collect();
             let best = greatest(&sums);
-            ((best + 1) as f64 * step_hz, powers.iter().map(|of| of[best]).collect::<Vec<f64>>())
+            (best, powers.iter().map(|of| of[best]).collect::<Vec<f64>>())
         };
         // Errors that are new in each frame raise all frequencies of a recording alike.
         let (_, powers) = strongest(&takes);
         takes.iter_mut().zip(powers).for_each(|(take, power)| take.calm(power));
-        let (hz, powers) = strongest(&takes);
+        let (best, powers) = strongest(&takes);
         let size = |(take, power): (&Recording, &f64)| {
-            let sigma = blur(take.frames.iter().map(|(_, sum)| sum.1).sum::<f64>() * take.left(hz));
+            let sigma = blur(take.frames.iter().map(|(_, sum)| sum.1).sum::<f64>() * take.left[best]);
             (sigma * power.sqrt(), sigma)
         };
         let sizes: Vec<(f64, f64)> = takes.iter().zip(&powers).map(size).collect();
         let looked = (WAYS.len() * count) as f64;
         let found = Greatest::of(powers.iter().sum(), NUMBERS * takes.len(), looked);
-        agree(&sizes).then_some(Tone { way: WAYS[way], hz, found })
+        agree(&sizes).then_some(Tone { way: MODES[WAYS[way]], hz: (best + 1) as f64 * step_hz, found })
     }
 }
 
@@ -155,7 +157,7 @@ impl Recording {
         let information =
             |set: &Vec<&Heard>| set.iter().map(|heard| (heard.time_s, heard.ways[way].1)).collect();
         let some = sets.values().step_by(sets.len().div_ceil(SOME)).map(information).collect();
-        Self { frames, some, taken: sets.len() + numbers.len() }
+        Self { frames, some, taken: sets.len() + numbers.len(), left: Vec::new() }
     }
 
     /// In units of what frames scatter beside a line of this `power`.
@@ -165,8 +167,13 @@ impl Recording {
         self.frames.iter_mut().for_each(|(_, sum)| *sum = (sum.0 / noise, sum.1 / noise));
     }
 
+    /// Learns what its sets leave of tones at a `count` of frequencies, each a step above the last.
+    fn listen(&mut self, step_hz: f64, count: usize) {
+        self.left = (1..=count).into_par_iter().map(|number| self.left_at(number as f64 * step_hz)).collect();
+    }
+
     /// What is left of a tone's information of this frequency when its sets' means are taken from it, a share.
-    fn left(&self, hz: f64) -> f64 {
+    fn left_at(&self, hz: f64) -> f64 {
         let (mut shared, mut all) = (0.0, 0.0);
         for set in &self.some {
             let (mut cosines, mut sines, mut information) = (0.0, 0.0, 0.0);
@@ -182,18 +189,12 @@ impl Recording {
         (1.0 - shared / all).max(LEAST)
     }
 
-    /// Chi squared that tones explain, at a `count` of frequencies, each a step above the last; none where its sets leave too little of one.
-    fn powers(&self, step_hz: f64, count: usize) -> Vec<f64> {
-        let starts: Vec<usize> = (0..count).step_by(TOGETHER).collect();
-        let powers = starts.into_par_iter().flat_map_iter(|start| {
-            let mut powers = vec![0.0; TOGETHER.min(count - start)];
-            add_powers(&self.frames, (start + 1) as f64 * step_hz, step_hz, ANY, &mut powers);
-            powers.into_iter().enumerate().map(move |(number, power)| {
-                let left = self.left((start + number + 1) as f64 * step_hz);
-                if left < LEAST_LEFT { 0.0 } else { power / left }
-            })
-        });
-        powers.collect()
+    /// Chi squared that tones of these frequencies explain; none where its sets leave too little of one.
+    fn powers(&self, step_hz: f64) -> Vec<f64> {
+        let group = std::slice::from_ref(&self.frames);
+        let powers = powers(group, &[], (step_hz, step_hz), self.left.len(), ANY);
+        let explained = |(power, &left): (f64, &f64)| if left < LEAST_LEFT { 0.0 } else { power / left };
+        powers.into_iter().zip(&self.left).map(explained).collect()
     }
 }
 
