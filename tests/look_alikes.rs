@@ -147,7 +147,7 @@ fn light_that_is_not_at_twice_the_mains_frequency_is_no_lamps() {
     let shape = verdict["located"][0]["shape"].as_str().unwrap();
     // Which of the lines that frames see alike it is, they cannot tell.
     assert!(shape.contains("88.30 Hz") && shape.contains("111.70 Hz"), "{shape}");
-    assert!(shape.ends_with(" that is not twice the mains' frequency"), "{shape}");
+    assert!(shape.ends_with(" that all pixels have alike"), "{shape}");
 }
 
 /// So it is beside an effect that repeats from set to set, and has lines wherever sets do: of those near twice the mains' frequency none is a lamp's.
@@ -164,7 +164,7 @@ fn light_that_is_no_lamps_is_none_beside_what_repeats_from_set_to_set() {
     let places = verdict["located"].as_array().unwrap();
     let of_no_lamp = |place: &Value| {
         place["coordinate"] == "time_s"
-            && place["shape"].as_str().unwrap().ends_with(" that is not twice the mains' frequency")
+            && place["shape"].as_str().unwrap().ends_with(" that all pixels have alike")
     };
     assert!(places.iter().any(of_no_lamp), "{verdict:#}");
 }

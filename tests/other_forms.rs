@@ -6,8 +6,10 @@ mod diagnosed;
 mod rewritten;
 
 use diagnosed::{concealed, names, parameter, simulated, verdict};
-use rewritten::rewrite;
+use num_complex::Complex64;
+use rewritten::{rewrite, rewrite_recordings};
 use serde_json::{Value, json};
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use vuris::frames::RawSets;
 use vuris::recording::{Recording, write_recording};
@@ -334,4 +336,83 @@ fn emitters_on_one_side_may_change_the_phase_alone() {
     let (found, sigma) = parameter(&verdict, "middle_along_columns_m");
     assert!((found - 0.25).abs() < 4.0 * sigma && sigma < 0.05, "{found} +- {sigma}");
     assert_eq!(parameter(&verdict, "of_phase_alone").0, 1.0);
+}
+
+/// How much light there is, DN, by this camera's own.
+type Light = fn(f64) -> f64;
+
+/// Adds to a campaign the light of another camera that lights a part of the scene, as bright where it is brightest as `light_dn` makes of this camera's own there, at the phase `angle_rad` of the
+/// commanded phase and the time.
+fn with_another_light(campaign: &Path, light_dn: Light, angle_rad: impl Fn(f64, f64) -> f64) {
+    rewrite_recordings(campaign, |number, recording| {
+        let (geometry, frames) = (recording.geometry(), recording.raw.frames_per_set());
+        let pixels = geometry.pixels();
+        // What a set shows of this camera's own light, by so many frames as go once round.
+        let turn = (TAU / (recording.steps_rad[1] - recording.steps_rad[0])).round() as usize;
+        let own_dn = |set: &[u32], pixel: usize| {
+            let of = |frame: usize| {
+                Complex64::from_polar(f64::from(set[pixels * frame + pixel]), recording.steps_rad[frame])
+            };
+            2.0 / turn as f64 * (0..turn).map(of).sum::<Complex64>().norm()
+        };
+        let spot = |pixel: usize| {
+            let (row, column) = geometry.row_column(pixel);
+            let column = (column as f64 + 0.5) / geometry.width as f64 - 0.5;
+            let row = (row as f64 + 0.5) / geometry.height as f64 - 0.5;
+            (-0.5 * (((column - 0.15) / 0.4).powi(2) + ((row + 0.1) / 0.3).powi(2))).exp()
+        };
+        let mut codes = Vec::with_capacity(recording.raw.codes().len());
+        for (set, row) in recording.raw.codes().chunks(pixels * frames).zip(&recording.sets) {
+            for (at, code) in set.iter().enumerate() {
+                let (frame, pixel) = (at / pixels, at % pixels);
+                let time_s = row.time_s + frame as f64 * recording.frame_period_s;
+                let commanded_rad = recording.steps_rad[frame] + row.phase_offset_rad;
+                let cosine = (angle_rad(commanded_rad, time_s) + number as f64).cos();
+                let more_dn = light_dn(own_dn(set, pixel)) * spot(pixel) * cosine;
+                codes.push((f64::from(*code) + more_dn).round() as u32);
+            }
+        }
+        recording.raw = RawSets::new(geometry, frames, codes).unwrap();
+    });
+}
+
+/// The light of another camera that lights a part of the scene, whichever of light and gate takes this camera's phase steps: its beat, and where it falls.
+#[test]
+fn another_camera_may_light_a_part_of_the_scene() {
+    const BEAT_HZ: f64 = 7.31;
+    let lights: [(f64, Light); 3] = [(0.0, |own_dn| 0.04 * own_dn), (0.0, |_| 8.0), (1.0, |_| 8.0)];
+    for (steps, light_dn) in lights {
+        let folder = tempfile::tempdir().unwrap();
+        let campaign = campaign(folder.path(), "four-rail,wdft-rail,four-sweep", &[]);
+        with_another_light(&campaign, light_dn, |commanded_rad, time_s| {
+            steps * commanded_rad - TAU * BEAT_HZ * time_s
+        });
+        let verdict = verdict(&campaign);
+        assert_eq!(names(&verdict), ["multi_camera_interference"], "{steps}: {verdict:#}");
+        assert_eq!(verdict["verdict"], "explained", "{steps}: {verdict:#}");
+        let falls = [0.4_f64, 0.3].map(|width| 0.5 / width.powi(2));
+        let truths = [
+            ("beat_hz (four-rail)", BEAT_HZ),
+            ("rise_along_columns", 2.0 * falls[0] * 0.15),
+            ("rise_along_rows", 2.0 * falls[1] * -0.1),
+            ("fall_squared_along_columns", falls[0]),
+            ("fall_squared_along_rows", falls[1]),
+        ];
+        for (name, truth) in truths {
+            let (value, sigma) = parameter(&verdict, name);
+            assert!(
+                (value - truth).abs() < 4.0 * sigma && sigma < 0.2 * truth.abs(),
+                "{steps}, {name}: {value} +- {sigma}, not {truth}"
+            );
+        }
+    }
+}
+
+/// A gain of one frame is one number, and no offset of that frame.
+#[test]
+fn one_frame_of_each_set_may_have_a_gain() {
+    let verdict = explained("four-rail,four-motion,wdft-rail", "frame_gain:frame_2=0.0012");
+    let (gain, sigma) = parameter(&verdict, "frame_2");
+    assert!((gain - 0.0012).abs() < 4.0 * sigma && sigma < 0.0002, "{gain} +- {sigma}");
+    assert_eq!(verdict["effects"][0]["evidence"]["degrees_of_freedom"], 1, "{verdict:#}");
 }

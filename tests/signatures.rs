@@ -539,20 +539,53 @@ fn radial_axial_distance(make: Make, findings: &mut Findings) {
     findings.about("phase", more, phase_rad(0.03, 30e6), 1e-9);
 }
 
-/// What is seen of the other camera turns with the phase steps, and the other way round with the beat.
+/// What is seen of the other camera turns with the phase steps, unless the light takes these, and the other way round with the beat; of this camera's own light it falls with the square of the
+/// distance.
 fn multi_camera_interference(make: Make, findings: &mut Findings) {
-    // All pixels have as much ambient light, so that either way is the same.
-    for (goes_with_ambient, frame) in [0.0, 1.0].into_iter().flat_map(|way| (0..4).map(move |n| (way, n))) {
-        let settings = [
-            ("cosine_dn", 2.0),
-            ("sine_dn", 0.5),
-            ("beat_hz", 3.0),
-            ("goes_with_ambient", goes_with_ambient),
-        ];
-        let other = make("multi_camera_interference", &settings);
-        let more = still_frame(&[A], other, frame)[0] - still_frame(&[A], Vec::new(), frame)[0];
-        let angle = frame as f64 * (FRAC_PI_2 - TAU * 3.0 * PERIOD_S);
-        findings.about("a frame, DN", more, 2.0 * angle.cos() + 0.5 * angle.sin(), 1e-9);
+    // Two pixels with other light, seen aslant.
+    const OBLIQUITY: f64 = 1.1;
+    let pixels = || Pixels {
+        obliquity: vec![OBLIQUITY; 2],
+        ambient_dn: vec![AMBIENT, 2.0 * AMBIENT].into(),
+        ..row(&[A, 3.0 * A])
+    };
+    let forms =
+        [("cosine_dn", "sine_dn", FRAC_PI_2), ("without_steps_cosine_dn", "without_steps_sine_dn", 0.0)];
+    // Over the root of the mean square.
+    let [ambient, own] = [2.5_f64.sqrt(), 5.0_f64.sqrt()];
+    let far = OBLIQUITY.powi(-2);
+    let ways = [
+        (0.0, [1.0, 1.0]),
+        (1.0, [1.0 / ambient, 2.0 / ambient]),
+        (-0.5, [1.0 / own, 3.0 / own]),
+        (-1.0, [far / own, 3.0 * far / own]),
+    ];
+    for ((cosine, sine, step_rad), (goes_with, shares)) in
+        forms.into_iter().flat_map(|form| ways.map(|way| (form, way)))
+    {
+        for frame in 0..4 {
+            let settings = [(cosine, 2.0), (sine, 0.5), ("beat_hz", 3.0), ("goes_with_ambient", goes_with)];
+            let with = frame_of(pixels(), make("multi_camera_interference", &settings), frame);
+            let without = frame_of(pixels(), Vec::new(), frame);
+            let angle = frame as f64 * (step_rad - TAU * 3.0 * PERIOD_S);
+            let dn = 2.0 * angle.cos() + 0.5 * angle.sin();
+            for ((with, without), share) in with.iter().zip(without).zip(shares) {
+                findings.about("a frame, DN", with - without, share * dn, 1e-9);
+            }
+        }
+    }
+    // A quarter of the image from its middle, along a row of two, of which the right one has most: a factor of e^0.2 there.
+    let settings = [
+        ("cosine_dn", 2.0),
+        ("beat_hz", 3.0),
+        ("rise_along_columns", 1.6),
+        ("fall_squared_along_columns", 3.2),
+    ];
+    let row = still_frame(&[A, A], make("multi_camera_interference", &settings), 0);
+    let without = still_frame(&[A, A], Vec::new(), 0);
+    for (pixel, side) in [(0, -0.25), (1, 0.25)] {
+        let share = f64::exp(1.6 * side - 3.2 * side * side - 0.2);
+        findings.about("a spot, DN", row[pixel] - without[pixel], 2.0 * share, 1e-9);
     }
 }
 

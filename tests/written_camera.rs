@@ -16,10 +16,15 @@ const LIBRARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/row-rippl
 /// What is simulated, and what of it must be found.
 const FOUND: [(&str, &str); 2] =
     [("fixed_point", "fixed_point:bits_cut=3"), ("row_ripple", "row_ripple:amplitude_dn=2")];
-const FOUND_TOO: [(&str, &str); 7] = [
+const FOUND_TOO: [(&str, &str); 8] = [
     ("clock_jitter", "clock_jitter:sigma_rad=0.01"),
     ("frame_timing_error", "frame_timing_error:relative=0.05"),
     ("multi_camera_interference", "multi_camera_interference:cosine_dn=2,beat_hz=1.37"),
+    (
+        "multi_camera_interference",
+        "multi_camera_interference:without_steps_cosine_dn=8,beat_hz=1.37,goes_with_ambient=-1,\
+         fall_squared_along_columns=8,fall_squared_along_rows=6",
+    ),
     ("timing_jitter_of_frames", "timing_jitter_of_frames:sigma_s=1e-3"),
     ("excess_noise", "excess_noise:relative=0.02"),
     ("image_lag", "image_lag:share=0.03"),

@@ -9,7 +9,7 @@ use super::periodogram::{ANY, FINENESS, Scan, chi2, greatest, longest};
 /// again when that is named.
 const LEAST_SHARE: f64 = 0.1;
 /// Products of frequencies and frames that are looked at, at most.
-const MOST_PRODUCTS: f64 = 1e9;
+pub const MOST_PRODUCTS: f64 = 1e9;
 /// Numbers of a beat in a recording: cosine and sine.
 const NUMBERS: usize = 2;
 
@@ -38,15 +38,30 @@ impl Series {
     /// The strongest beat, if it turns in the longest recording (what does not is the phasor of a crosstalk, or the drift of one, and is named first: where frames are not evenly
     /// apart in time it has images that turn), and is seen above the noise and what else is there.
     pub fn turning_beat(&self) -> Option<Line> {
+        let longest_s = longest(&self.by_take());
+        self.beat().filter(|beat| beat.frequency.abs() * longest_s > DRIFT_CYCLES && self.is_clear(beat))
+    }
+
+    /// Whether a line with a phase of its own in each recording is seen above the noise and what else is there.
+    pub fn is_clear(&self, line: &Line) -> bool {
         let takes = self.by_take();
-        let longest_s = longest(&takes);
         let beyond_noise: f64 = takes.iter().map(|take| chi2(take) - take.len() as f64).sum();
-        self.beat().filter(|beat| {
-            let found = Greatest::of(beat.chi2, NUMBERS * takes.len(), beat.looked);
-            beat.frequency.abs() * longest_s > DRIFT_CYCLES
-                && beat.chi2 > LEAST_SHARE * beyond_noise
-                && found.ln_bayes > 0.0
-        })
+        line.chi2 > LEAST_SHARE * beyond_noise && self.seen(line).ln_bayes > 0.0
+    }
+
+    /// What such a line says among all that were looked at.
+    fn seen(&self, line: &Line) -> Greatest {
+        Greatest::of(line.chi2, NUMBERS * self.by_take().len(), line.looked)
+    }
+
+    /// The same in the noise that frames have beside it.
+    pub fn seen_beside_the_rest(&self, line: &Line) -> Greatest {
+        let takes = self.by_take();
+        let numbers = NUMBERS * takes.len();
+        let frames: usize = takes.iter().map(Vec::len).sum();
+        let rest = takes.iter().map(|take| chi2(take)).sum::<f64>() - line.chi2;
+        let noise = (rest / frames.saturating_sub(numbers).max(1) as f64).max(1.0);
+        Greatest::of(line.chi2 / noise, numbers, line.looked)
     }
 
     /// The strongest beat, Hz, if it explains clearly more than a line of the ambient light that is near `frequency_hz`; noise has `inflation` times the variance

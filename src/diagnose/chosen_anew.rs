@@ -6,6 +6,7 @@ use super::data::Data;
 use super::fit::Fit;
 use super::found::Named;
 use super::noise::Noise;
+use super::other_camera::OTHER_CAMERA;
 use super::pass::{Pass, RIVAL_NATS, SIMPLER_SHARE};
 use super::pieces::{Candidate, Piece};
 use super::refined::{UNCHANGED, best_below, is_seldom};
@@ -44,6 +45,10 @@ fn ways(first: &Pass, candidates: &[Candidate], current: &Fit, name: &'static st
     let is_of = |piece: &&Piece| piece.effect.name == name;
     let own = current.pieces.iter().find(is_of).and_then(|piece| Some((piece, choice_of(piece.effect)?)));
     let Some((own, choice)) = own else { return Vec::new() };
+    // Another camera's light has the part of the image that was found for its choice.
+    if name == OTHER_CAMERA {
+        return Vec::new();
+    }
     let others = near_ones(first, candidates, own.effect, choice)
         .into_iter()
         .filter(|chosen| *chosen != own.values[choice]);

@@ -1,9 +1,11 @@
-//! Dark recordings in which nothing comes in at all: no recording says whether the camera's light was off, or the room's too (or the lens was covered).
+//! Dark recordings in which nothing comes in at all: no recording says whether the camera's light was off, or the room's too (or the lens was covered). What pixels show then is where each of
+//! them begins, which the ambient light has in all other recordings.
 
 use super::data::{Data, Take};
 use super::finished::unfitted;
 use super::fit::Fit;
 use super::noise::Noise;
+use std::f64::consts::TAU;
 
 /// No light at all explains such recordings better than ambient light alone by this chi squared, at least: ten nats.
 const CLEARLY: f64 = 20.0;
@@ -18,9 +20,10 @@ pub fn covered(data: &Data, baseline: &Fit, noise: Noise) -> Option<(Data, Fit)>
     }
     let without = |is_covered: &dyn Fn(&Take) -> bool| {
         let mut takes = data.takes.clone();
-        for take in takes.iter_mut().filter(|take| is_dark(take) && is_covered(take)) {
-            take.moments.iter_mut().for_each(|moment| moment.transmission = 0.0);
-        }
+        let mut dark: Vec<&mut Take> =
+            takes.iter_mut().filter(|take| is_dark(take) && is_covered(take)).collect();
+        dark.iter_mut().flat_map(|take| &mut take.moments).for_each(|moment| moment.transmission = 0.0);
+        begin_at_nothing(&mut dark, data.pixels());
         let covered = data.with_takes(takes);
         let fitted = unfitted(&covered, noise);
         (covered, fitted)
@@ -35,8 +38,42 @@ pub fn covered(data: &Data, baseline: &Fit, noise: Noise) -> Option<(Data, Fit)>
         return None;
     }
     let (covered, fitted) = if dark.all(|none| none) { all } else { without(&sees_none) };
-    (fitted.left() + CLEARLY < baseline.left()).then_some((covered, fitted))
+    // One number a pixel says where it begins.
+    let gained = CLEARLY + data.pixels() as f64;
+    (fitted.left() + gained < baseline.left()).then_some((covered, fitted))
 }
+
+/// Takes from the pixels of `dark` recordings, in which nothing comes in, what each of them shows on average in frames that go round once: what follows the phase steps stays.
+fn begin_at_nothing(dark: &mut [&mut Take], pixels: usize) {
+    let mut sums = vec![(0.0, 0_usize); pixels];
+    for take in dark.iter() {
+        let turn = once_round(take);
+        let frames = take.signal_dn.chunks(pixels).zip(&take.moments);
+        for (frame, _) in frames.filter(|(_, moment)| moment.frame < turn) {
+            for (sum, signal) in sums.iter_mut().zip(frame).filter(|(_, signal)| signal.is_finite()) {
+                *sum = (sum.0 + f64::from(*signal), sum.1 + 1);
+            }
+        }
+    }
+    let means: Vec<f32> = sums.into_iter().map(|(sum, count)| (sum / count.max(1) as f64) as f32).collect();
+    for frame in dark.iter_mut().flat_map(|take| take.signal_dn.chunks_mut(pixels)) {
+        frame.iter_mut().zip(&means).for_each(|(signal, mean)| *signal -= mean);
+    }
+}
+
+/// How many frames of a set go round once; all, where that is no whole number of them.
+fn once_round(take: &Take) -> usize {
+    let step_rad = match &take.moments[..] {
+        [first, second, ..] if take.frames > 1 => second.step_rad - first.step_rad,
+        _ => 0.0,
+    };
+    let turn = (TAU / step_rad.abs()).round();
+    let is_whole = turn <= take.frames as f64 && (turn * step_rad.abs() - TAU).abs() < WHOLE_RAD;
+    if is_whole { turn as usize } else { take.frames }
+}
+
+/// Steps that go round but for so much go round.
+const WHOLE_RAD: f64 = 1e-3;
 
 /// What a recording sees on average, DN.
 fn mean_dn(take: &Take) -> f64 {
@@ -85,6 +122,46 @@ mod tests {
         assert_eq!(covered_of("four-rail", [0.0, 1.0]), (names(&["four-dark"]), true));
         // A room that is dimmer than before is not without light.
         assert_eq!(covered_of("four-rail", [0.15, 0.15]), (Vec::new(), true));
+    }
+
+    /// Pixels that begin at levels of their own in covered recordings do not differ from the simulation there, and what couples into them from the phase steps stays.
+    #[test]
+    fn pixels_begin_where_they_do() {
+        const COUPLED_DN: f64 = 2.0;
+        let recordings =
+            taken(Geometry { width: 8, height: 6 }, 3, &[], &["four-rail", "four-dark", "wdft-dark"]);
+        let data = Data::of(&recordings.unwrap(), Vec::new()).unwrap();
+        let pixels = data.pixels();
+        let levels = |step_dn: f64| move |pixel: usize| step_dn * (pixel % 5) as f64;
+        let with = |data: &mut Data, level: &dyn Fn(usize) -> f64, coupled_dn: f64| {
+            for take in data.takes.iter_mut().filter(|take| !take.moments[0].lit) {
+                let less_dn = mean_dn(take);
+                for (frame, moment) in take.signal_dn.chunks_mut(pixels).zip(&take.moments) {
+                    let more_dn = coupled_dn * moment.step_rad.cos() - less_dn;
+                    frame
+                        .iter_mut()
+                        .enumerate()
+                        .for_each(|(pixel, signal)| *signal += (more_dn + level(pixel)) as f32);
+                }
+            }
+        };
+        let noise = stated_noise(&data);
+        let left = |step_dn: f64, coupled_dn: f64| {
+            let mut data = data.clone();
+            with(&mut data, &levels(step_dn), coupled_dn);
+            let (data, fitted) = covered(&data, &unfitted(&data, noise), noise).unwrap();
+            assert_eq!(without_light(&data).len(), 2);
+            fitted.left()
+        };
+        let (even, uneven, coupled) = (left(0.0, 0.0), left(3.0, 0.0), left(3.0, COUPLED_DN));
+        assert!((uneven - even).abs() < 1.0, "{even} {uneven}");
+        // In each of the dark frames, of which cosines have these means of the square.
+        let of_dark = |take: &Take| -> f64 {
+            let squares = take.moments.iter().map(|moment| (COUPLED_DN * moment.step_rad.cos()).powi(2));
+            pixels as f64 * squares.sum::<f64>() / noise.floor
+        };
+        let expected: f64 = data.takes.iter().filter(|take| !take.moments[0].lit).map(of_dark).sum();
+        assert!((coupled - uneven - expected).abs() < 0.1 * expected, "{coupled} - {uneven}, not {expected}");
     }
 
     /// Where nothing moves, frames without any light do not tell ambient light from the constant part of the camera's own.

@@ -8,11 +8,13 @@ use super::found::Named;
 use super::images::{Image, also_seen, images, spread};
 use super::judge::Judgement;
 use super::lamps::FLICKER;
+use super::other_camera::{OTHER_CAMERA, spot_sigmas};
 use super::other_choices;
 use super::pieces::Piece;
 use super::random::{EXCESS_NOISE, Strength};
 use super::roundings::says_of_settings;
 use crate::physics::Effect;
+use crate::physics::effects::multi_camera_interference::SPOT;
 use crate::recording::effect_name;
 
 /// The row of what is `named`.
@@ -109,6 +111,7 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) 
             });
         }
     }
+    rows.extend(spot_rows(data, judgement, name));
     if rows.is_empty() {
         // A random effect is not fitted with the others: its strength is from what they leave.
         let random = judgement.random.iter().copied().find(|(random, _)| *random == name);
@@ -125,4 +128,18 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) 
         }));
     }
     rows
+}
+
+/// Where the light of another camera falls, which is the same in all recordings.
+fn spot_rows(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRow> {
+    let is_it = |piece: &&Piece| piece.effect.name == name && name == OTHER_CAMERA;
+    let piece = judgement.fit.pieces.iter().find(is_it);
+    let sigmas = || spot_sigmas(data, &judgement.fit, judgement.noise);
+    let Some((piece, sigmas)) = piece.and_then(|piece| Some((piece, sigmas()?))) else { return Vec::new() };
+    let row = |(number, sigma): (usize, f64)| {
+        let parameter = &piece.effect.parameters[number];
+        let (name, value) = (parameter.name.to_owned(), piece.values[number]);
+        ParameterRow { name, value, sigma, unit: parameter.unit, at_bound: false }
+    };
+    (SPOT..).zip(sigmas).map(row).collect()
 }

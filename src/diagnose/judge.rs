@@ -9,10 +9,12 @@ use super::found::{Found, Named};
 use super::gains::{self, gain_of_recordings};
 use super::held_out::Predictor;
 use super::included::Forms;
+use super::lamps::FLICKER;
 use super::location::{LOCATED_NATS, Location};
 use super::mismatch::{Place, places};
 use super::misnamed::{Misnamed, misnamed};
 use super::noise::Noise;
+use super::other_camera::{OTHER_CAMERA, without_steps};
 use super::pass::{DISBELIEF, THRESHOLD};
 use super::pieces::Piece;
 use super::random::{
@@ -82,6 +84,11 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
     let is_clear = |place: &&Place| deflated(inflation, place.ln_bayes, place.chi2.0) > LOCATED_NATS;
     let unnamed = unlike.as_ref().map(|unlike| &unlike.place).filter(is_clear);
     let mut named = standing(&found, inflation);
+    // What follows no phase steps may be any light that comes and goes on a part of the scene.
+    let is_still =
+        found.fit.pieces.iter().any(|piece| piece.effect.name == OTHER_CAMERA && without_steps(piece));
+    let of_light = named.iter_mut().filter(|named| is_still && named.name == OTHER_CAMERA);
+    of_light.for_each(|named| named.may_be(FLICKER));
     let standing: Vec<&str> = named.iter().map(|named| named.name).collect();
     let no_drift = gain_of_recordings(data, &found, noise);
     named.retain(|named| no_drift != Some(named.name));
@@ -121,13 +128,19 @@ pub fn judge(data: &Data, baseline: Fit, stated: Noise) -> Judgement {
             })
     };
     let most_left = left.iter().filter(is_left).max_by(|a, b| a.excess().total_cmp(&b.excess()));
-    // Codes without many bits are off by what repeats with these, and stands out over nothing else.
+    // Codes without many bits are off by what repeats with these, and stands out over nothing else, but for lines that see few of the codes.
+    let over_codes = left.iter().filter(is_left).filter(|place| place.coordinate == "code");
+    let of_codes = over_codes.map(Place::excess).fold(0.0, f64::max);
+    let is_of_codes = |place: &Place| {
+        place.coordinate == "code"
+            || end.is_of_lines_at_signals(place) && place.excess() < OF_FEW_CODES * of_codes
+    };
     let is_cut = data.cut_bits > data.unpredicted.bits_cut;
     let is_of_cut = is_cut
         && named.is_empty()
         && !are_dropped
         && baseline.period_dn.is_some_and(|period_dn| is_part_of(data.unit_dn(), period_dn))
-        && left.iter().filter(is_left).all(|place| place.coordinate == "code");
+        && left.iter().filter(is_left).all(is_of_codes);
     let rest = most_left.map_or(0.0, |place| place.excess().max(0.0));
     let left_there = most_left.map_or(0.0, |place| left_of(&places, place));
     let remainder = if rest > 0.0 { rest / (rest + explained) } else { 0.0 };
@@ -225,6 +238,9 @@ fn is_part_of(whole: f64, part: f64) -> bool {
     let times = whole / part;
     times > 1.0 - PERIOD_TO && (times - times.round()).abs() < PERIOD_TO
 }
+
+/// Lines show less than this share of what their few codes are off by.
+const OF_FEW_CODES: f64 = 0.1;
 
 /// A coordinate in which a mismatch says this share of what it says where it lives most may be where it lives.
 const LEADING: f64 = 0.9;

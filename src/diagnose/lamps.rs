@@ -13,11 +13,19 @@ pub const MAINS_OFF: f64 = 2e-3;
 /// Of a cycle, what is no more within a set is none.
 const LEAST_FORWARD: f64 = 1e-3;
 /// A generator that is not on the grid is off by more, but hardly by this share.
-const NEAR_MAINS: f64 = 0.05;
+pub const NEAR_MAINS: f64 = 0.05;
 
 /// Whether a frequency, Hz, may be twice the mains'.
 pub fn is_mains(frequency_hz: f64) -> bool {
     TWICE_MAINS_HZ.iter().any(|mains| (frequency_hz / mains - 1.0).abs() < MAINS_OFF)
+}
+
+/// Whether frames that are a period (s) apart see a line of so many hertz as one within a `share` of twice the mains' frequency.
+pub fn is_seen_as_lamps(hz: f64, period_s: f64, share: f64) -> bool {
+    // Images are whole turns from frame to frame apart; of those on either side of twice the mains' frequency the nearest one counts.
+    let nearest = |mains: f64, hz: f64| hz + ((mains - hz) * period_s).round() / period_s;
+    let is_near = |mains: f64| [hz, -hz].iter().any(|&hz| (nearest(mains, hz) / mains - 1.0).abs() < share);
+    TWICE_MAINS_HZ.into_iter().any(is_near)
 }
 
 impl Series {
@@ -64,6 +72,23 @@ mod tests {
     use crate::diagnose::lines::FrameSeen;
     use crate::physics::Draws;
     use std::f64::consts::TAU;
+
+    /// Frames 25 ms apart see 16.9 Hz as 103.1 Hz; frames a millisecond apart see it as it is.
+    #[test]
+    fn a_lamps_line_may_be_seen_elsewhere() {
+        for (hz, period_s, is_lamps) in [
+            (16.9, 0.025, true),
+            (-23.1, 0.025, true),
+            (103.1, 0.025, true),
+            (7.31, 0.025, false),
+            (16.9, 0.001, false),
+            (99.9, 0.001, true),
+            (88.3, 0.025, false),
+            (7.31, 0.0, false),
+        ] {
+            assert_eq!(is_seen_as_lamps(hz, period_s, NEAR_MAINS), is_lamps, "{hz} Hz, every {period_s} s");
+        }
+    }
 
     /// Frames 25 ms apart see 100 and 120 Hz stand, and frames 20.2 ms apart, in sets that begin 200 ms apart, see 100 Hz go forward and come back.
     #[test]

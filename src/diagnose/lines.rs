@@ -40,6 +40,8 @@ pub struct SetSeen {
     pub number: usize,
     /// Its recording.
     pub take: usize,
+    /// Its start, s.
+    pub time_s: f64,
     /// The encoder's reading without its noise, as far as that is known, m.
     pub reading_m: f64,
     /// The carriage's velocity, m/s.
@@ -99,6 +101,7 @@ impl Series {
             self.sets.push(SetSeen {
                 number: whitened.set,
                 take: whitened.take,
+                time_s: moment.time_s,
                 reading_m: moment.place_m,
                 velocity_m_s: moment.velocity_m_s,
                 ..SetSeen::default()

@@ -11,6 +11,7 @@ use super::gram::{Gram, Whitened};
 use super::images::alike;
 use super::jitters::Jitters;
 use super::lines_at_signals::LinesAtSignals;
+use super::mismatch::Place;
 use super::noise::Noise;
 use super::parts::parts;
 use super::patches::Patches;
@@ -64,6 +65,8 @@ pub struct Location {
     pub columns: Vec<Located>,
     /// Random errors, best first.
     pub clusters: Vec<Cluster>,
+    /// The strongest tone, where frames are off.
+    pub tone: Option<Tone>,
     /// What frames say of errors of phase and time together.
     pub jitters: Jitters,
     /// The recording with the greatest misfit.
@@ -74,6 +77,17 @@ pub struct Location {
     pub curves: Vec<Profile>,
     /// Root of each pixel's chi squared a sample.
     pub map: Vec<f64>,
+}
+
+/// Coordinates of lines.
+const LINES: [&str; 2] = ["row", "column"];
+
+impl Location {
+    /// Whether a place is a few rows or columns at signals of some height.
+    pub fn is_of_lines_at_signals(&self, place: &Place) -> bool {
+        let is_it = |of: &&Located| of.kind == Kind::Patch && of.shape == place.shape;
+        self.columns.iter().find(is_it).is_some_and(|of| LINES.contains(&of.coordinate))
+    }
 }
 
 /// What is seen frame by frame.
@@ -158,6 +172,10 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     columns.extend(tone.map(|Tone { way, hz, found }| {
         Located::wave("time_s", format!("{way}, a tone of {}", alike(hz, period_s)), found)
     }));
+    columns.extend(base.series.line_of_no_lamp().map(|line| {
+        let shape = format!("offset, a line of {}", alike(line.frequency, period_s));
+        Located::wave("time_s", shape, base.series.seen_beside_the_rest(&line))
+    }));
     let wave_over_codes = codes.strongest();
     let period_dn = wave_over_codes.as_ref().map(|wave| wave.period_dn);
     columns.extend(wave_over_codes.map(|wave| {
@@ -180,6 +198,7 @@ pub fn locate(data: &Data, base: &Fit, noise: Noise) -> Location {
     Location {
         columns,
         clusters: ranked,
+        tone,
         jitters: clusters.jitters,
         take: base.series.worst_take(),
         period_dn,

@@ -11,9 +11,14 @@ use super::lines::{DRIFT_CYCLES, Line, Series};
 use super::location::Location;
 use super::mismatch::Place;
 use super::noise::Noise;
+use super::other_camera::{OTHER_CAMERA, is_of_a_part, is_same, without_steps};
 use super::overtones::{OF_CODES, is_wave, overtones};
+use super::pieces::Piece;
 use super::source::{Shown, is_one, shown};
 use super::steps::{CURVES, step};
+use crate::physics::effects::ambient_flicker::FREQUENCY;
+use crate::physics::effects::multi_camera_interference::{BEAT, GOES_WITH};
+use std::f64::consts::TAU;
 
 /// What was named, and is something else.
 pub struct Misnamed {
@@ -35,7 +40,7 @@ pub fn misnamed(
     let waves = || if data.assumed.camera { None } else { no_wave(data, found, baseline, noise) };
     let drifts = || if data.assumed.camera { None } else { no_drift(data, found, noise) };
     no_lamp(data, found, noise, inflation)
-        .or_else(|| no_beat(data, found, baseline.take))
+        .or_else(|| no_beat(data, found, baseline))
         .or_else(drifts)
         .or_else(waves)
 }
@@ -118,39 +123,72 @@ fn no_lamp(data: &Data, found: &Found, noise: Noise, inflation: f64) -> Option<M
     Some(Misnamed { names: vec![FLICKER], place })
 }
 
-/// Another camera's light, by the registry's name.
-const OTHER_CAMERA: &str = "multi_camera_interference";
-
-/// Where something follows the phase steps that was taken for another camera's light, and has not one beat in all recordings, or none that turns.
-fn no_beat(data: &Data, found: &Found, take: usize) -> Option<Misnamed> {
+/// Where something was taken for another camera's light that has not one beat in all recordings, or none that turns; or, where it follows no steps, is no light that comes and goes, or falls on
+/// all pixels alike, as a supply's hum does, a screen's light, or the ripple of this camera's own.
+fn no_beat(data: &Data, found: &Found, baseline: &Location) -> Option<Misnamed> {
     let named = found.named.iter().find(|named| named.name == OTHER_CAMERA)?;
     let duration_s = |take: usize| {
         let times_s = || data.takes[take].moments.iter().map(|moment| moment.time_s);
         times_s().fold(f64::NEG_INFINITY, f64::max) - times_s().fold(f64::INFINITY, f64::min)
     };
-    let pieces = found.fit.pieces.iter().filter(|piece| piece.effect.name == OTHER_CAMERA);
-    let beats: Vec<(f64, f64)> = pieces
-        .filter_map(|piece| {
+    let pieces = || found.fit.pieces.iter().filter(|piece| piece.effect.name == OTHER_CAMERA);
+    let beats: Vec<(f64, f64)> = pieces()
+        .map(|piece| {
             let longest_s = piece.takes.iter().map(|&take| duration_s(take)).fold(0.0, f64::max);
-            let hz = piece
-                .effect
-                .parameters
-                .iter()
-                .position(|parameter| parameter.is_shape() && !parameter.is_choice)?;
-            Some((piece.values[hz], longest_s))
+            (piece.values[BEAT], longest_s)
         })
         .collect();
-    let place = || Place {
+    let period_s = found.fit.series.frame_period_s;
+    let longest = beats.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |beat| beat.0);
+    let line = || alike(longest.abs(), period_s);
+    // An error of the phase or of the place is a line in the offset that goes with the phase steps, too.
+    let steps = data.takes.iter().filter_map(|take| match &take.moments[..] {
+        [first, second, ..] => Some((second.step_rad - first.step_rad) / TAU),
+        _ => None,
+    });
+    let shifts_hz: Vec<f64> = std::iter::once(0.0)
+        .chain(steps.flat_map(|turns| [turns, -turns]))
+        .map(|turns| turns / period_s)
+        .collect();
+    let is_seen_as = |hz: f64| shifts_hz.iter().any(|shift_hz| is_same(hz + shift_hz, longest, period_s));
+    let tone =
+        baseline.tone.filter(|tone| is_seen_as(tone.hz) && tone.found.chi2.0 > AS_MUCH * named.score.0);
+    let shape = if !is_one_beat(&beats) {
+        "offset, what may be a beat of one frequency in each recording, and is none in all".to_owned()
+    } else if pieces().any(|piece| !without_steps(piece)) {
+        return None;
+    } else if let Some(tone) = tone {
+        format!("{}, a tone of {}", tone.way, line())
+    } else if !pieces().any(|piece| is_of_a_part(piece, &found.fit.pixels)) {
+        let goes_with = pieces().next().map_or(0.0, |piece| piece.values[GOES_WITH]);
+        let how = if goes_with < 0.0 { "goes with the camera's own light" } else { "all pixels have alike" };
+        format!("offset, a line of {} that {how}", line())
+    } else {
+        return None;
+    };
+    // A lamp beside it that frames see alike is of the same.
+    let is_lamp =
+        |piece: &Piece| piece.effect.name == FLICKER && is_same(piece.values[FREQUENCY], longest, period_s);
+    let lamp = found.named.iter().find(|named| named.name == FLICKER);
+    let lamp = lamp.filter(|_| found.fit.pieces.iter().any(is_lamp));
+    let names = std::iter::once(OTHER_CAMERA).chain(lamp.map(|lamp| lamp.name)).collect();
+    let score = |named: &Named| named.score;
+    let (chi2, numbers) = lamp.map_or((0.0, 0), score);
+    let take = baseline.take;
+    let place = Place {
         coordinate: "time_s",
-        shape: "offset, what follows the phase steps and is no beat of one frequency".to_owned(),
-        ln_bayes: stands_for(named),
-        chi2: named.score,
+        shape,
+        ln_bayes: stands_for(named) + lamp.map_or(0.0, stands_for),
+        chi2: (named.score.0 + chi2, named.score.1 + numbers),
         looked: 1.0,
         take,
         is_random: false,
     };
-    (!is_one_beat(&beats)).then(|| Misnamed { names: vec![OTHER_CAMERA], place: place() })
+    Some(Misnamed { names, place })
 }
+
+/// What frames are off by together as a line, other than in offset, is no other light where that has so much of the chi squared that such light would explain.
+const AS_MUCH: f64 = 0.5;
 
 /// Whether beats, each of a frequency (Hz) in recordings of which the longest takes so long (s), are one that turns.
 fn is_one_beat(beats: &[(f64, f64)]) -> bool {

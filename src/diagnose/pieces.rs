@@ -2,8 +2,9 @@
 
 use super::data::Data;
 use super::included::included_of;
-use super::lamps::{FLICKER, FLICKER_HZ};
 use super::lines::Series;
+use super::other_camera::{self, OTHER_CAMERA};
+use super::periods::{Found, LINES};
 use super::refined::is_seldom;
 use super::roundings::rounded;
 use super::sides::sides;
@@ -155,10 +156,10 @@ const GROUPINGS: [(&str, &[Grouping]); 8] = [
     ("illumination_drift", &[Grouping::All, Grouping::Take]),
     ("ambient_drift", &[Grouping::All, Grouping::Take]),
     ("phase_drift", &[Grouping::All, Grouping::Take]),
-    ("multi_camera_interference", &[Grouping::Take]),
+    (OTHER_CAMERA, &[Grouping::Take]),
 ];
 /// So many frames a set are many.
-const MANY_FRAMES: usize = 16;
+pub const MANY_FRAMES: usize = 16;
 /// What starts with a corner: it is tried where it would show, at several values.
 const FINITE: &str = "saturation";
 
@@ -178,31 +179,6 @@ const IN_ONE_SHAPE: [(&str, f64, f64); 2] = [("course", 1.0, 60.0), ("course", -
 
 /// Effects that differ from pixel to pixel, told from others only where the target is at one place: what changes with the distance differs too.
 pub const OF_ONE_PLACE: [&str; 1] = ["response_decay"];
-
-/// A line that was found: shapes that it may have, among how many they were looked for, and its shape in each recording where that may differ.
-struct Found {
-    shapes: Vec<f64>,
-    looked: f64,
-    own: Vec<f64>,
-}
-
-/// Effects whose shape is the period of a line.
-type LineShape = fn(&Series) -> Option<Found>;
-const LINES: [(&str, LineShape); 3] = [
-    (FLICKER, |series| {
-        let line = series.in_time(FLICKER_HZ)?;
-        Some(Found { shapes: vec![line.frequency], looked: line.looked, own: series.near(line.frequency) })
-    }),
-    ("multi_camera_interference", |series| {
-        let line = series.turning_beat()?;
-        Some(Found { shapes: vec![line.frequency], looked: line.looked, own: Vec::new() })
-    }),
-    ("encoder_cyclic", |series| {
-        let lines = series.in_position();
-        let shapes = lines.iter().map(|line| line.frequency.recip()).collect();
-        Some(Found { shapes, looked: lines.first()?.looked, own: Vec::new() })
-    }),
-];
 
 /// Effects that a pixel's neighbours make: they cannot be seen where those are not looked at.
 pub const OF_NEIGHBOURS: [&str; 3] = ["mixed_pixels", "charge_crosstalk", "lateral_motion"];
@@ -229,6 +205,9 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             let shapes = line.as_ref().map(|line| &line.shapes[..]);
             let mut variants = variants(effect, data, shapes);
             if let Some(line) = &line {
+                if effect.name == OTHER_CAMERA {
+                    other_camera::sort_out(&mut variants, line, series);
+                }
                 variants.iter_mut().for_each(|variant| variant.begin_at(&line.own));
             }
             // A line is one of many frequencies that were looked at, whichever of them are tried.
@@ -270,12 +249,15 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let (shapes, mut choices) = (found.unwrap_or(values_of(shape)), values_of(choice));
     let mut groupings = of_effect(&GROUPINGS, effect).map_or(&[Grouping::All][..], |groupings| groupings);
     // Without a line, what one would do is looked at in its usual way.
-    if found.is_none() && of_effect(&LINES, effect).is_some() {
+    let is_without_line = found.is_none() && of_effect(&LINES, effect).is_some();
+    if is_without_line {
         (groupings, choices) = (&[Grouping::All], &choices[..1]);
     }
     let strengths = |instead: bool| -> Vec<usize> {
         let all = effect.parameters.iter().enumerate();
-        all.filter(|(_, p)| p.is_usual_strength(instead)).map(|(number, _)| number).collect()
+        all.filter(|(_, p)| p.is_usual_strength(instead) && !(instead && is_without_line))
+            .map(|(number, _)| number)
+            .collect()
     };
     let (strengths, instead) = (strengths(false), strengths(true));
     let is_of_all = |&number: &usize| effect.parameters[number].frame.is_none();

@@ -344,6 +344,7 @@ mod tests {
                 clusters: Vec::new(),
                 jitters: Jitters::default(),
                 take: 0,
+                tone: None,
                 period_dn: None,
                 curves: Vec::new(),
                 map: Vec::new(),

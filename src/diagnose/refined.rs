@@ -9,6 +9,7 @@ use super::fit::{End, Fit, WHOLE, fit_led};
 use super::lamp_overtones::with_overtone;
 use super::lamps::FLICKER;
 use super::noise::Noise;
+use super::other_camera::{OTHER_CAMERA, with_spot};
 use super::overtones::{OF_CODES, is_longer};
 use super::pieces::Piece;
 use super::roundings::OF_SHIFTER;
@@ -75,6 +76,9 @@ pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str)
     }
     if is_new(FLICKER) {
         fitted = with_overtone(data, fitted, noise);
+    }
+    if is_new(OTHER_CAMERA) {
+        fitted = with_spot(data, fitted, noise);
     }
     if is_new(OF_WELLS) {
         fitted = with_knee(data, fitted, noise);

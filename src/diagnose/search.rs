@@ -16,6 +16,7 @@ use super::in_common::in_common;
 use super::lamps::FLICKER;
 use super::needless::{drop_needless, without_bounded};
 use super::noise::Noise;
+use super::one_frame::one_frame;
 use super::overtones::is_bend;
 use super::pass::{Pass, THRESHOLD};
 use super::pieces::{Candidate, Piece, candidates};
@@ -160,8 +161,9 @@ impl<'a> Search<'a> {
         exchange(self.data, self.noise, (first, candidates), &mut self.current, &mut self.named)
     }
 
-    /// Gives each of several effects the shape that fits best beside the others, and drifts one time constant where recordings need none of their own.
+    /// Gives each of several effects the shape that fits best beside the others, drifts one time constant where recordings need none of their own, and gains one frame.
     fn choose_anew(&mut self, candidates: &[Candidate]) {
+        one_frame(self.data, self.noise, &self.baseline, &mut self.current, &mut self.named);
         let Some((first, _)) = self.first.as_ref().filter(|_| self.named.len() > 1) else { return };
         chosen_anew(self.data, self.noise, (first, candidates), &mut self.current, &mut self.named);
         in_common(self.data, self.noise, &mut self.current, &mut self.named);

@@ -9,7 +9,7 @@ use super::pieces::{OF_OTHER_PIXELS, Piece};
 use super::tolerated::tolerated;
 
 /// What an effect's freedom costs, nats, where its evidence is taken from its fit.
-const OCCAM_NATS: f64 = 10.0;
+pub const OCCAM_NATS: f64 = 10.0;
 /// What is less probable than this is no question of noise.
 const OF_NOISE: f64 = 1e-100;
 /// Noise brings what a coordinate shows clearly more rarely where its probability is less by this factor: a nat.
@@ -107,9 +107,10 @@ impl Names {
         }
         let ((chi2, columns), numbers) = (coordinate.chi2, self.numbers);
         // Tangents of a strong effect promise more than there is, and its form may leave something.
-        // That the target is not where it is said to be is no other form of anything: a reading that comes late is as likely as what is named.
+        // That the target is not where it is said to be is no other form of anything: a reading that comes late is as likely as what is named. Nor is another way in which the same frame is off.
         let is_other = columns < numbers
             || coordinate.kind == Kind::Place && columns <= numbers
+            || self.own.is_some_and(|own| own.0 == coordinate.coordinate) && columns <= numbers
             || excess((chi2, columns)) > excess((self.at_most.0, numbers)) + 2.0 * RIVAL_NATS;
         // A flicker swings.
         let is_swing = coordinate.kind == Kind::Wave && matches!(coordinate.coordinate, "time_s" | "set");

@@ -27,7 +27,7 @@ mod lateral_motion;
 mod lens_scatter;
 mod mixed_pixels;
 mod modulation_frequency_error;
-mod multi_camera_interference;
+pub mod multi_camera_interference;
 mod multipath_interference;
 mod phase_drift;
 pub mod phase_step_errors;
