@@ -46,15 +46,11 @@ impl Series {
     pub fn is_clear(&self, line: &Line) -> bool {
         let takes = self.by_take();
         let beyond_noise: f64 = takes.iter().map(|take| chi2(take) - take.len() as f64).sum();
-        line.chi2 > LEAST_SHARE * beyond_noise && self.seen(line).ln_bayes > 0.0
+        let found = Greatest::of(line.chi2, NUMBERS * takes.len(), line.looked);
+        line.chi2 > LEAST_SHARE * beyond_noise && found.ln_bayes > 0.0
     }
 
-    /// What such a line says among all that were looked at.
-    fn seen(&self, line: &Line) -> Greatest {
-        Greatest::of(line.chi2, NUMBERS * self.by_take().len(), line.looked)
-    }
-
-    /// The same in the noise that frames have beside it.
+    /// What such a line says among all that were looked at, in the noise that frames have beside it.
     pub fn seen_beside_the_rest(&self, line: &Line) -> Greatest {
         let takes = self.by_take();
         let numbers = NUMBERS * takes.len();

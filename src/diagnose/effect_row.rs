@@ -141,5 +141,5 @@ fn spot_rows(data: &Data, judgement: &Judgement, name: &str) -> Vec<ParameterRow
         let (name, value) = (parameter.name.to_owned(), piece.values[number]);
         ParameterRow { name, value, sigma, unit: parameter.unit, at_bound: false }
     };
-    (SPOT..).zip(sigmas).map(row).collect()
+    SPOT.zip(sigmas).map(row).collect()
 }

@@ -195,15 +195,18 @@ pub fn strongest(groups: &[Vec<(f64, Sum)>], ends: (f64, f64), period: f64) -> O
         return Some(best);
     }
     // Frames that are evenly apart see frequencies alike whose sum or difference is a multiple of theirs: of these lamps have twice the mains'.
-    let is_whole = |turns: f64| (turns - turns.round()).abs() < 2.0 * step * period;
-    let is_image = |number: &usize| {
-        let frequency = line(*number).frequency;
-        is_whole((best.frequency + frequency) * period) || is_whole((best.frequency - frequency) * period)
-    };
+    let is_image =
+        |number: &usize| are_alike(best.frequency, line(*number).frequency, period, 2.0 * step * period);
     let as_strong = |number: &usize| lines[*number] > best.chi2 * NEARLY;
     let of_mains = (0..lines.len()).filter(|&number| is_mains(line(number).frequency) && period > 0.0);
     let images = of_mains.filter(is_image).filter(as_strong).map(line);
     Some(images.max_by(|a, b| a.chi2.total_cmp(&b.chi2)).unwrap_or(best))
+}
+
+/// Whether frames that are a period (s) apart see two lines (Hz) alike, but for so many `turns` from a frame to the next.
+pub fn are_alike(one_hz: f64, other_hz: f64, period_s: f64, turns: f64) -> bool {
+    let is_whole = |all: f64| (all - all.round()).abs() < turns;
+    is_whole((one_hz + other_hz) * period_s) || is_whole((one_hz - other_hz) * period_s)
 }
 
 /// What lines explain that are no drift to frames: chi squared, of each frequency of a scan.

@@ -172,16 +172,14 @@ fn no_beat(data: &Data, found: &Found, baseline: &Location) -> Option<Misnamed> 
     let lamp = found.named.iter().find(|named| named.name == FLICKER);
     let lamp = lamp.filter(|_| found.fit.pieces.iter().any(is_lamp));
     let names = std::iter::once(OTHER_CAMERA).chain(lamp.map(|lamp| lamp.name)).collect();
-    let score = |named: &Named| named.score;
-    let (chi2, numbers) = lamp.map_or((0.0, 0), score);
-    let take = baseline.take;
+    let (chi2, numbers) = lamp.map_or((0.0, 0), |lamp| lamp.score);
     let place = Place {
         coordinate: "time_s",
         shape,
         ln_bayes: stands_for(named) + lamp.map_or(0.0, stands_for),
         chi2: (named.score.0 + chi2, named.score.1 + numbers),
         looked: 1.0,
-        take,
+        take: baseline.take,
         is_random: false,
     };
     Some(Misnamed { names, place })

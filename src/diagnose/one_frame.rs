@@ -37,12 +37,7 @@ fn alone(data: &Data, current: &Fit, frame: usize) -> Piece {
     let takes: Vec<usize> = (0..data.takes.len()).collect();
     let with_it = || current.pieces.iter().filter(|piece| piece.free.contains(&frame));
     let sum: f64 = with_it().map(|piece| piece.values[frame]).sum();
-    let mut piece = current.pieces[0].clone();
-    for (value, parameter) in piece.values.iter_mut().zip(piece.effect.parameters) {
-        if !parameter.is_shape() {
-            *value = parameter.off;
-        }
-    }
+    let mut piece = current.pieces[0].with_share(0.0);
     piece.values[frame] = sum / with_it().count().max(1) as f64;
     piece.free = vec![frame];
     piece.included = included_of(data, piece.effect, &takes);

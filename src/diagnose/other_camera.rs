@@ -7,14 +7,14 @@ use super::data::Data;
 use super::finished::finished;
 use super::fit::{Fit, fit, fit_below};
 use super::lamps::{NEAR_MAINS, is_seen_as_lamps};
-use super::lines::{Line, Series, SetSeen};
+use super::lines::{Line, Series, SetSeen, are_alike};
 use super::noise::Noise;
 use super::periodogram::{FINENESS, longest, power};
 use super::periods::Found;
 use super::pieces::{Piece, Variant};
 use super::swings::usual;
-use crate::physics::Pixels;
-use crate::physics::effects::multi_camera_interference::{self, BEAT, GOES_WITH, SPOT, SPOT_NUMBERS};
+use crate::physics::effects::multi_camera_interference::{self, BEAT, EFFECT, GOES_WITH, SPOT};
+use crate::physics::{Parameter, Pixels};
 use nalgebra::{SMatrix, SVector};
 
 /// Its name.
@@ -30,13 +30,12 @@ const SAME_TURNS: f64 = 2e-3;
 
 /// Whether frames that are a period (s) apart see two lines, Hz, alike.
 pub fn is_same(one_hz: f64, other_hz: f64, period_s: f64) -> bool {
-    let turns = [one_hz - other_hz, one_hz + other_hz].map(|hz| hz * period_s);
-    turns.into_iter().any(|turns| (turns - turns.round()).abs() < SAME_TURNS)
+    are_alike(one_hz, other_hz, period_s, SAME_TURNS)
 }
 
-/// Frequencies of what frames see that follows the phase steps, and of what does not, if there is either.
-pub fn found(series: &Series) -> Option<Found> {
-    let (beat, still) = (series.turning_beat(), series.line_of_no_lamp());
+/// Frequencies of what frames see that follows the phase steps, and of what does not, the `still` line, if there is either.
+pub fn found(series: &Series, still: Option<Line>) -> Option<Found> {
+    let beat = series.turning_beat();
     let looked = [&beat, &still].into_iter().flatten().map(|line| line.looked).sum();
     let of = |line: Option<Line>| line.into_iter().map(|line| line.frequency).collect::<Vec<_>>();
     let (usual, instead) = (of(beat), of(still));
@@ -104,37 +103,39 @@ pub fn without_steps(piece: &Piece) -> bool {
 /// So many standard deviations of a strength show light.
 const SEEN: f64 = 4.0;
 
-type Spot = SVector<f64, SPOT_NUMBERS>;
-type SpotCovariance = SMatrix<f64, SPOT_NUMBERS, SPOT_NUMBERS>;
+/// How many numbers say where it falls.
+const NUMBERS: usize = SPOT.end - SPOT.start;
+type Spot = SVector<f64, NUMBERS>;
+type SpotCovariance = SMatrix<f64, NUMBERS, NUMBERS>;
 
 /// What is `fitted`, with a part of the image on which another camera's light that is in it falls, the same in all recordings, where that fits clearly better.
 pub fn with_spot(data: &Data, fitted: Fit, noise: Noise) -> Fit {
     let Some((each, spot, _)) = spot(data, &fitted, noise, &|piece| !has_spot(piece)) else { return fitted };
+    // At a bound it is something else.
+    let is_within = |(value, known): (&f64, &Parameter)| *value > known.bounds.0 && *value < known.bounds.1;
+    if !spot.iter().zip(&EFFECT.parameters[SPOT]).all(is_within) {
+        return fitted;
+    }
     let mut pieces = each.pieces.clone();
     for piece in pieces.iter_mut().filter(|piece| piece.effect.name == OTHER_CAMERA) {
-        let known = &piece.effect.parameters[SPOT..];
-        // At a bound it is something else.
-        if spot.iter().zip(known).any(|(value, known)| *value <= known.bounds.0 || *value >= known.bounds.1) {
-            return fitted;
-        }
-        piece.values[SPOT..SPOT + SPOT_NUMBERS].copy_from_slice(spot.as_slice());
-        piece.free.retain(|number| !(SPOT..SPOT + SPOT_NUMBERS).contains(number));
+        piece.values[SPOT].copy_from_slice(spot.as_slice());
+        piece.free.retain(|number| !SPOT.contains(number));
     }
-    let most = fitted.cost() - NEEDED_NATS - SPOT_NUMBERS as f64;
+    let most = fitted.cost() - NEEDED_NATS - SPOT.len() as f64;
     let with = fit_below(data, &each, pieces, noise, most);
     let better = (with.cost() < most).then(|| finished(data, with, noise)).filter(|with| !is_bounded(with));
     better.unwrap_or(fitted)
 }
 
 /// Standard deviations of the numbers that say where another camera's light falls, if what is `fitted` has them.
-pub fn spot_sigmas(data: &Data, fitted: &Fit, noise: Noise) -> Option<[f64; SPOT_NUMBERS]> {
+pub fn spot_sigmas(data: &Data, fitted: &Fit, noise: Noise) -> Option<[f64; NUMBERS]> {
     let (.., covariance) = spot(data, fitted, noise, &has_spot)?;
     Some(std::array::from_fn(|number| covariance[(number, number)].max(0.0).sqrt()))
 }
 
 /// Whether it has another brightness in each part of the image.
 fn has_spot(piece: &Piece) -> bool {
-    piece.values[SPOT..SPOT + SPOT_NUMBERS].iter().any(|value| *value != 0.0)
+    piece.values[SPOT].iter().any(|value| *value != 0.0)
 }
 
 /// Light falls on a part of an image where its darkest place has less than this share of its brightest.
@@ -142,7 +143,7 @@ const PART: f64 = 0.5;
 
 /// Whether it falls on a part of the image of so many `pixels`.
 pub fn is_of_a_part(piece: &Piece, pixels: &Pixels) -> bool {
-    let falls = multi_camera_interference::spot(&piece.values[SPOT..SPOT + SPOT_NUMBERS], pixels);
+    let falls = multi_camera_interference::spot(&piece.values[SPOT], pixels);
     falls.is_some_and(|falls| falls.into_iter().fold(1.0, f64::min) < PART)
 }
 
@@ -157,26 +158,22 @@ fn spot(
     let is_own = |&number: &usize| pieces[number].effect.name == OTHER_CAMERA && is_it(&pieces[number]);
     let own: Vec<usize> = (0..pieces.len()).filter(is_own).collect();
     own.first()?;
-    own.iter().for_each(|&number| pieces[number].free.extend(SPOT..SPOT + SPOT_NUMBERS));
+    own.iter().for_each(|&number| pieces[number].free.extend(SPOT));
     let each = fit(data, Some(fitted), pieces, noise, &|_| true);
     let (mut matrix, mut vector) = (SpotCovariance::zeros(), Spot::zeros());
     for number in own {
-        let columns = (SPOT..SPOT + SPOT_NUMBERS).map(|of| each.column_of(number, of));
-        let columns: Vec<usize> = columns.collect::<Option<_>>()?;
+        let piece = &each.pieces[number];
+        let columns: Vec<usize> = SPOT.map(|of| each.column_of(number, of)).collect::<Option<_>>()?;
         // A recording in which nothing is seen has a spot anywhere.
-        let strengths = each.pieces[number]
-            .free
-            .iter()
-            .filter(|&&of| each.pieces[number].effect.parameters[of].has_shapes());
-        let clear = |&of: &usize| {
-            each.column_of(number, of)
-                .is_some_and(|column| each.pieces[number].values[of].abs() > SEEN * each.sigma(column))
+        let is_clear = |&of: &usize| {
+            let column = each.column_of(number, of).filter(|_| piece.effect.parameters[of].has_shapes());
+            column.is_some_and(|column| piece.values[of].abs() > SEEN * each.sigma(column))
         };
-        if !strengths.into_iter().any(clear) {
+        if !piece.free.iter().any(is_clear) {
             continue;
         }
         let covariance = SpotCovariance::from_fn(|a, b| each.covariance[(columns[a], columns[b])]);
-        let values = Spot::from_fn(|of, _| each.pieces[number].values[SPOT + of]);
+        let values = Spot::from_column_slice(&piece.values[SPOT]);
         if let Some(information) = covariance.try_inverse().filter(|of| of.iter().all(|of| of.is_finite())) {
             matrix += information;
             vector += information * values;

@@ -16,13 +16,13 @@ pub struct Found {
     pub own: Vec<f64>,
 }
 
-/// Effects whose shape is the period of a line.
-pub type LineShape = fn(&Series) -> Option<Found>;
+/// Effects whose shape is the period of a line, by what frames and sets say, and their line of no lamp, for which all frequencies are looked at.
+pub type LineShape = fn(&Series, Option<Line>) -> Option<Found>;
 pub const LINES: [(&str, LineShape); 3] = [
-    (FLICKER, |series| {
+    (FLICKER, |series, of_no_lamp| {
         // What is no lamp's is looked for as another light's.
         let is_far = |line: &Line| !is_seen_as_lamps(line.frequency, series.frame_period_s, NEAR_MAINS);
-        let of_no_lamp = series.line_of_no_lamp().filter(is_far);
+        let of_no_lamp = of_no_lamp.filter(is_far);
         let is_it = |line: &Line| {
             of_no_lamp.is_some_and(|other| is_same(line.frequency, other.frequency, series.frame_period_s))
         };
@@ -35,7 +35,7 @@ pub const LINES: [(&str, LineShape); 3] = [
         })
     }),
     (OTHER_CAMERA, other_camera::found),
-    ("encoder_cyclic", |series| {
+    ("encoder_cyclic", |series, _| {
         let lines = series.in_position();
         let shapes = lines.iter().map(|line| line.frequency.recip()).collect();
         Some(Found { shapes, looked: lines.first()?.looked, own: Vec::new(), instead: Vec::new() })

@@ -191,6 +191,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
         let by_name = BASELINE.iter().find(|(name, _)| *name == effect.name);
         by_name.is_some_and(|(_, included)| data.camera.included_physics.iter().any(|name| name == included))
     };
+    let of_no_lamp = series.line_of_no_lamp();
     EFFECTS
         .iter()
         .chain(&data.library)
@@ -201,7 +202,7 @@ pub fn candidates(data: &Data, series: &Series) -> Vec<Candidate> {
             effect.is_predicted() && is_seen && !included(effect)
         })
         .map(|effect| {
-            let line = of_effect(&LINES, effect).and_then(|line| line(series));
+            let line = of_effect(&LINES, effect).and_then(|line| line(series, of_no_lamp));
             let shapes = line.as_ref().map(|line| &line.shapes[..]);
             let mut variants = variants(effect, data, shapes);
             if let Some(line) = &line {

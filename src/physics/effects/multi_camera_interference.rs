@@ -2,17 +2,16 @@
 
 use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Pixels, Place, cos_sin};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Number of the cosine among the parameters, where the gate takes the phase steps; its sine comes after it.
 const OF_GATE: usize = 0;
 /// The same where the light takes them.
 const OF_LIGHT: usize = 2;
-/// Number of the first of the parameters that say on which part of the image the light falls.
-pub const SPOT: usize = 4;
-/// How many these are.
-pub const SPOT_NUMBERS: usize = 4;
+/// Numbers of the parameters that say on which part of the image the light falls.
+pub const SPOT: Range<usize> = 4..8;
 /// Number of the beat among the parameters.
-pub const BEAT: usize = SPOT + SPOT_NUMBERS;
+pub const BEAT: usize = SPOT.end;
 /// Number of what it goes with.
 pub const GOES_WITH: usize = BEAT + 1;
 
@@ -89,7 +88,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         return;
     }
     let per = more_dn / usual;
-    match spot(&values[SPOT..BEAT], pixels) {
+    match spot(&values[SPOT], pixels) {
         Some(falls) => {
             for ((signal, shape), falls) in exposure.signal_dn.iter_mut().zip(shape).zip(falls) {
                 *signal += per * shape * falls;
