@@ -46,6 +46,26 @@ const EDGES: &Edges = &[
     ("problem", ""),
 ];
 
+/// Which room of the diagnosis may see which others. Most see only what stands below them; a line of a room that stands above is an exception.
+const ROOMS: &Edges = &[
+    (
+        "answering",
+        "judging unseen naming forms set_aside locating shared_errors periodic fitting tangents reading statistics",
+    ),
+    ("judging", "unseen naming forms locating shared_errors periodic fitting tangents reading statistics"),
+    ("unseen", "shared_errors fitting tangents reading"),
+    ("naming", "forms shared_errors periodic fitting tangents reading statistics"),
+    ("forms", "judging naming shared_errors periodic fitting tangents reading statistics"),
+    ("set_aside", "locating periodic fitting tangents reading statistics"),
+    ("locating", "shared_errors periodic fitting tangents reading statistics"),
+    ("shared_errors", "locating periodic fitting tangents reading statistics"),
+    ("periodic", "fitting tangents reading statistics"),
+    ("fitting", "shared_errors periodic tangents reading statistics"),
+    ("tangents", "reading"),
+    ("reading", "shared_errors fitting"),
+    ("statistics", ""),
+];
+
 /// The direction of the design: a module sees those of its own line and of the lines below.
 const LAYERS: &[&str] = &[
     "main",
@@ -188,9 +208,9 @@ impl Source {
         }
     }
 
-    /// Top-level modules of this crate that the file names.
-    fn sees(&self) -> Vec<(usize, String)> {
-        let mut seen = Vec::new();
+    /// Paths into this crate that the file names, from the crate's root.
+    fn absolute(&self) -> Vec<(usize, Vec<&str>)> {
+        let mut found = Vec::new();
         for root in ["crate", "super", "vuris"] {
             for (position, path) in self.paths(root) {
                 let mut absolute = if root == "super" { self.module() } else { Vec::new() };
@@ -206,11 +226,28 @@ impl Source {
                 absolute.extend(rest);
                 // `pub(crate)` and `pub(super)` are no paths.
                 if path.len() > 1 {
-                    seen.push((position, absolute.first().copied().unwrap_or("").to_owned()));
+                    found.push((position, absolute));
                 }
             }
         }
-        seen
+        found
+    }
+
+    /// Top-level modules of this crate that the file names.
+    fn sees(&self) -> Vec<(usize, String)> {
+        let first = |path: Vec<&str>| path.first().copied().unwrap_or("").to_owned();
+        self.absolute().into_iter().map(|(position, path)| (position, first(path))).collect()
+    }
+
+    /// The room of the module `parent` in which the file is, and the rooms of it that it names.
+    fn rooms(&self, parent: &str) -> Option<(String, Vec<(usize, String)>)> {
+        let of = |path: &[&str]| match path {
+            [first, room, _, ..] if *first == parent => Some(room.to_string()),
+            _ => None,
+        };
+        let own = of(&self.module())?;
+        let seen = self.absolute().into_iter().filter_map(|(position, path)| Some((position, of(&path)?)));
+        Some((own, seen.collect()))
     }
 }
 
@@ -410,36 +447,56 @@ fn names(list: &str) -> impl Iterator<Item = &str> {
     list.split_whitespace()
 }
 
-fn edges_outside(edges: &Edges, sources: &[Source]) -> Vec<String> {
+/// A file with the name of what it is part of, and what it sees of the same kind.
+type Sight<'a> = (&'a Source, String, Vec<(usize, String)>);
+
+/// Files as parts of top-level modules.
+fn of_modules(sources: &[Source]) -> Vec<Sight<'_>> {
+    let own = |source: &Source| Some(source.module().first()?.to_string());
+    sources.iter().filter_map(|source| Some((source, own(source)?, source.sees()))).collect()
+}
+
+/// Files as parts of the rooms of the module `parent`.
+fn of_rooms<'a>(parent: &str, sources: &'a [Source]) -> Vec<Sight<'a>> {
+    let sight = |source: &'a Source| source.rooms(parent).map(|(own, seen)| (source, own, seen));
+    sources.iter().filter_map(sight).collect()
+}
+
+fn outside(edges: &Edges, sights: &[Sight]) -> Vec<String> {
     let mut violations = Vec::new();
-    for source in sources {
-        let module = source.module();
-        let Some(&own) = module.first() else { continue };
-        let Some((_, allowed)) = edges.iter().find(|(from, _)| *from == own) else {
+    for (source, own, seen) in sights {
+        let Some((_, allowed)) = edges.iter().find(|(from, _)| from == own) else {
             violations.push(source.at(0, format_args!("the module {own} is not in the table")));
             continue;
         };
-        for (position, other) in source.sees() {
+        for (position, other) in seen {
             if other != own && !names(allowed).any(|name| name == other) {
-                violations.push(source.at(position, format_args!("{own} sees {other}")));
+                violations.push(source.at(*position, format_args!("{own} sees {other}")));
             }
         }
     }
     violations
 }
 
-fn unused_edges(edges: &Edges, sources: &[Source]) -> Vec<String> {
-    let used: BTreeSet<(String, String)> = sources
+fn edges_outside(edges: &Edges, sources: &[Source]) -> Vec<String> {
+    outside(edges, &of_modules(sources))
+}
+
+fn unused(edges: &Edges, sights: &[Sight]) -> Vec<String> {
+    let used: BTreeSet<(&str, &str)> = sights
         .iter()
-        .filter_map(|source| Some((source.module().first()?.to_string(), source)))
-        .flat_map(|(own, source)| source.sees().into_iter().map(move |(_, other)| (own.clone(), other)))
+        .flat_map(|(_, own, seen)| seen.iter().map(move |(_, other)| (own.as_str(), other.as_str())))
         .collect();
     edges
         .iter()
-        .flat_map(|(from, tos)| names(tos).map(move |to| (from.to_string(), to.to_string())))
+        .flat_map(|(from, tos)| names(tos).map(move |to| (*from, to)))
         .filter(|edge| !used.contains(edge))
         .map(|(from, to)| format!("{from} does not see {to}: take it out of the table"))
         .collect()
+}
+
+fn unused_edges(edges: &Edges, sources: &[Source]) -> Vec<String> {
+    unused(edges, &of_modules(sources))
 }
 
 /// Everything that `from` reaches.
@@ -483,6 +540,23 @@ fn wrong_directions(edges: &Edges) -> Vec<String> {
 #[test]
 fn every_module_sees_only_those_that_the_table_allows() {
     assert_none(edges_outside(EDGES, &sources()));
+}
+
+#[test]
+fn every_room_of_the_diagnosis_sees_only_those_that_its_table_allows() {
+    let sources = sources();
+    assert_none(outside(ROOMS, &of_rooms("diagnose", &sources)));
+    assert_none(unused(ROOMS, &of_rooms("diagnose", &sources)));
+    for text in ["\nuse crate::diagnose::naming::pass;", "\nuse super::super::naming::{pass::DISBELIEF};"] {
+        let sources = snippet("src/diagnose/statistics/median.rs", text);
+        let violations = outside(ROOMS, &of_rooms("diagnose", &sources));
+        assert_caught(violations, "src/diagnose/statistics/median.rs:2:", "statistics sees naming");
+    }
+    let own = snippet("src/diagnose/statistics/median.rs", "use super::evidence::of_variance;");
+    assert_none(outside(ROOMS, &of_rooms("diagnose", &own)));
+    let new = snippet("src/diagnose/novelty/median.rs", "");
+    assert_caught(outside(ROOMS, &of_rooms("diagnose", &new)), "src/diagnose/novelty/", "not in the table");
+    assert_eq!(unused(&[("statistics", "naming")], &of_rooms("diagnose", &own)).len(), 1);
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn a_power_and_a_corner_are_told_apart() {
 // ---------------------------------------------------------------- real
 
 /// Scenes of yongleex/CFPE. The first two came with this product's beginnings, the others were first looked at when all was written but
-/// the steps of single pixels (src/diagnose/settling.rs) and the order of candidates far from the data (src/diagnose/completed.rs).
+/// the steps of single pixels (src/diagnose/fitting/settling.rs) and the order of candidates far from the data (src/diagnose/naming/completed.rs).
 const SCENES: [&str; 4] = ["01", "04", "06", "08"];
 
 /// In every scene the response is named, and frames that the fit has not seen are predicted to 4.5 DN; so they are, with nothing but the pixels' own

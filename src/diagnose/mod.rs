@@ -1,162 +1,60 @@
 //! Diagnosis: where recordings and simulation disagree, and which physics was left out.
+//!
+//! Its rooms, each of which sees mostly those below it:
+//!
+//! | room | what is in it |
+//! | --- | --- |
+//! | `answering` | The answer: its rows, what these recordings cannot show, and which would. |
+//! | `judging` | From what a search found to what is asserted. |
+//! | `unseen` | What sets show to a fit that has not seen them. |
+//! | `naming` | The search for the effects that explain a mismatch. |
+//! | `forms` | Forms in which an effect that is named may be there, other than its usual one. |
+//! | `set_aside` | What is left out before anything is looked for: pixels and sets that are unlike the others, and recordings without light. |
+//! | `locating` | Where recordings and a model differ: the coordinates of a residual. |
+//! | `shared_errors` | Errors that samples of a set, a frame, a row or a column share at random. |
+//! | `periodic` | What is periodic in time or in the encoder's reading, and which source it has. |
+//! | `fitting` | The fit of the full forward model, with the noise of its samples. |
+//! | `tangents` | What each number that is fitted changes in every sample, by the forward model itself. |
+//! | `reading` | The recordings as a fit sees them: which samples, pixels and sets count, and what the encoder says. |
+//! | `statistics` | How likely a number, a line or a variance is, whatever it is of. |
 
-mod acting;
-mod again;
-mod alias;
-mod alone;
-mod amplitudes;
-mod answer;
-mod areas;
-mod arrived;
-mod backgrounds;
-mod beats;
-mod bits;
-mod block;
-mod bounds;
-mod camera;
-mod charges;
-mod chosen_anew;
-mod clusters;
-mod codes;
-mod columns;
-mod common_phase;
-mod completed;
-mod conclusion;
-mod contest;
-mod coordinates;
-mod coupled;
-mod covered;
-mod data;
-mod effect_row;
-mod encoder_noise;
-mod evidence;
-mod exchange;
-mod finished;
-mod fit;
-mod fittest;
-mod found;
-mod frequencies;
-mod gains;
-mod gaps;
-mod gram;
-mod grid;
-mod held_frames;
-mod held_out;
-mod held_out_row;
-mod hops;
-mod images;
-mod improvement;
-mod in_common;
-mod in_order;
-mod in_time;
-mod included;
-mod inverse;
-mod jitters;
-mod judge;
-mod lamp_overtones;
-mod lamps;
-mod left_out;
-mod line_ways;
-mod lines;
-mod lines_at_signals;
-mod location;
-mod marginal;
-mod mismatch;
-mod misnamed;
-mod near_full;
-mod needless;
-mod neighbours;
-mod next;
-mod noise;
-mod noisy_pixels;
-mod one_frame;
-mod other_camera;
-mod other_choices;
-mod overtones;
-mod own_phases;
-mod panels;
-mod parts;
-mod pass;
-mod patches;
-mod patterns;
-mod periodogram;
-mod periods;
-mod pieces;
-mod places;
-mod power;
-mod power_at_random;
-mod products;
-mod profiles;
-mod projected;
-mod promised;
-mod proposals;
-mod random;
-mod ranges;
-mod read_anew;
-mod refined;
-mod refused;
-mod resting;
-mod ripples;
-mod roundings;
-mod ruled_out;
-mod search;
-mod searched;
-mod seen;
-mod set_errors;
-mod settle;
-mod settling;
-mod shared_variance;
-mod sides;
-mod signals;
-mod simpler;
-mod soft_wells;
-mod source;
-mod split;
-mod start;
-mod steady;
-mod steps;
-mod stride;
-mod swings;
-mod tamed;
-mod together;
-mod tolerated;
-mod tones;
-mod tried;
-mod trust;
-mod uneven;
-mod untold;
-mod velocities;
-mod verdict;
-mod vote;
-mod watchdog;
-mod waves;
-mod white;
-mod whiten;
-mod whole_rounding;
+mod answering;
+mod fitting;
+mod forms;
+mod judging;
+mod locating;
+mod naming;
+mod periodic;
+mod reading;
+mod set_aside;
+mod shared_errors;
+mod statistics;
+mod tangents;
+mod unseen;
 
-pub use alone::Alone;
-pub use answer::{
+pub use answering::answer::{
     Answer, EffectRow, EvidenceRow, Invisible, LocatedRow, NextRecording, ParameterRow, Remainder, RuledOut,
     Smallest,
 };
-pub use camera::camera_with;
-pub use conclusion::Verdict;
-pub use data::{Assumed, Data, Take};
-pub use fit::Fit;
-pub use found::{Found, Named};
-pub use held_out::HeldOut;
-pub use held_out_row::HeldOutRow;
-pub use judge::Judgement;
-pub use left_out::LeftOut;
-pub use location::{Located, Location};
-pub use mismatch::Place;
-pub use next::ENOUGH_RHO;
-pub use noise::Noise;
-pub use power::Detectable;
-pub use profiles::{Point, Profile};
-pub use seen::Agreement;
-pub use simpler::Simpler;
-pub use verdict::{Diagnosis, diagnose};
+pub use answering::camera::camera_with;
+pub use answering::next::ENOUGH_RHO;
+pub use answering::verdict::{Diagnosis, diagnose};
+pub use fitting::fit::Fit;
+pub use fitting::noise::Noise;
+pub use judging::conclusion::Verdict;
+pub use judging::judge::Judgement;
+pub use locating::location::{Located, Location};
+pub use locating::mismatch::Place;
+pub use locating::profiles::{Point, Profile};
+pub use naming::alone::Alone;
+pub use naming::found::{Found, Named};
+pub use naming::power::Detectable;
+pub use reading::data::{Assumed, Data, Take};
+pub use set_aside::left_out::LeftOut;
+pub use statistics::simpler::Simpler;
+pub use unseen::held_out::HeldOut;
+pub use unseen::held_out_row::HeldOutRow;
+pub use unseen::seen::Agreement;
 
 /// The noise that the camera's description gives: read noise, quantisation, shot noise, and what it includes of noise and errors at random.
 pub fn stated_noise(data: &Data) -> Noise {
