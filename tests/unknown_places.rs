@@ -54,6 +54,21 @@ fn rows_that_take_turns_are_seen_as_such() {
     is_located(&verdict, "row", &["every other line with "]);
 }
 
+/// The references of pairs of rows wander from set to set: what is off is no set as a whole, though the mean of its rows is, too.
+#[test]
+fn rows_that_wander_from_set_to_set_are_rows() {
+    let verdict = verdict_of("four-rail,wdft-rail,four-motion", |campaign| {
+        rewrite(campaign, |Sample { set, row, code, .. }| {
+            // One code in about half of them, at random (SplitMix64).
+            let mut bits = ((set * 8 + row / 2 + 1) as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            if bits >> 63 == 0 { code + 1.0 } else { code }
+        });
+    });
+    is_located(&verdict, "row", &["common to a row of a set"]);
+}
+
 /// The converters of two columns sag where the light is bright.
 #[test]
 fn columns_that_sag_in_bright_light_are_seen_as_such() {

@@ -19,10 +19,11 @@ use crate::diagnose::naming::resting::goes_on;
 use crate::diagnose::naming::tolerated::{tolerated, tolerated_as_new};
 use crate::diagnose::periodic::lamps::FLICKER;
 use crate::diagnose::reading::data::Data;
-use crate::diagnose::shared_errors::clusters::Level;
+use crate::diagnose::shared_errors::described::words;
+use crate::diagnose::shared_errors::levels::Level;
 use crate::diagnose::shared_errors::random::{
     self, CLUSTER_NATS, EXCESS_NOISE, JITTERS, RandomEffect, Strength, deflated, inflation, is_beyond_forms,
-    may_be_of_light, new_each_time, of_name, random_effect, two_jitters, words,
+    may_be_of_light, new_each_time, of_name, random_effect, two_jitters,
 };
 use crate::diagnose::tangents::pieces::Piece;
 use crate::diagnose::unseen::held_out::Predictor;

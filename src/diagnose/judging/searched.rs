@@ -8,7 +8,8 @@ use crate::diagnose::locating::mismatch::places;
 use crate::diagnose::naming::found::Found;
 use crate::diagnose::naming::search::Search;
 use crate::diagnose::reading::data::Data;
-use crate::diagnose::shared_errors::clusters::{Cluster, Level};
+use crate::diagnose::shared_errors::clusters::Cluster;
+use crate::diagnose::shared_errors::levels::Level;
 use crate::diagnose::shared_errors::random::{self, is_noisier, jitter, random_effect};
 
 /// Errors of frames are more than the camera includes by this factor, or are found beside those.

@@ -2,7 +2,8 @@
 
 use super::location::{Kind, LOCATED_NATS, Located, Location};
 use crate::diagnose::reading::data::Data;
-use crate::diagnose::shared_errors::random::{self, ORDERED_SHARE, coordinate, deflated, errors, words};
+use crate::diagnose::shared_errors::described::{coordinate, words};
+use crate::diagnose::shared_errors::random::{self, ORDERED_SHARE, deflated, errors};
 
 /// Where a mismatch lives.
 #[derive(Debug, Clone)]

@@ -4,6 +4,7 @@
 //! a cluster's score and k its information.
 
 use super::jitters::{Frame, Jitters};
+use super::levels::{LEVELS, Level, MODES, PHASE, POSITION, VELOCITY};
 use super::ripples::Ripples;
 use super::swings::{Seen, Swing, Swings};
 use super::tones::{Heard, Tone, Tones, WAYS};
@@ -16,55 +17,10 @@ use crate::diagnose::statistics::shared_variance::SharedVariance;
 use crate::diagnose::statistics::tamed::tamed;
 use std::sync::LazyLock;
 
-/// Which samples share an error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Level {
-    /// All of a set.
-    Set,
-    /// All of a frame.
-    Frame,
-    /// A row of a frame.
-    Row,
-    /// A column of a frame.
-    Column,
-    /// Two by two pixels of a frame.
-    Neighbours,
-    /// None.
-    Pixel,
-}
-
-impl Level {
-    /// What shares an error, in words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Set => "set",
-            Self::Frame => "frame",
-            Self::Row => "row",
-            Self::Column => "column",
-            Self::Neighbours => "few neighbours",
-            Self::Pixel => "pixel",
-        }
-    }
-}
-
-/// All levels.
-pub const LEVELS: [Level; 6] =
-    [Level::Set, Level::Frame, Level::Row, Level::Column, Level::Neighbours, Level::Pixel];
-
-/// In which way samples may be off together: by so much light (DN), in proportion to the signal, in phase (rad), as if the target
-/// were where it is at another time (s), or, of a set, at another place (m), or, of a set too, with another velocity (m/s), or in proportion to the camera's own light.
-pub const MODES: [&str; 6] = ["offset", "gain", "phase", "position", "velocity", "light"];
-/// Of [`MODES`], the phase.
-pub const PHASE: usize = 2;
-/// Of [`MODES`], the position.
-pub const POSITION: usize = 3;
-/// Of [`MODES`], the velocity.
-const VELOCITY: usize = 4;
-/// Of [`MODES`], the camera's own light.
-pub const LIGHT: usize = 5;
-
 /// The first levels, of which there are few.
 const FEW: usize = 2;
+/// The first one of rows and columns whose frames of a set are off together.
+const OF_SETS: usize = 6;
 const STEPS: usize = 14;
 /// Least and greatest standard deviation of each mode; a frame's position is a time, s.
 pub const ENDS: [(f64, f64); 6] =
@@ -111,7 +67,9 @@ pub struct Clusters {
     /// What sets and frames say, recording by recording: a few of them that are far off are no effect.
     few: [[Vec<(usize, Sum)>; MODES.len()]; FEW],
     /// Score and information of the set whose frames come just now.
-    set: [(f64, f64); MODES.len()],
+    set: [Sum; MODES.len()],
+    /// The same of its rows and columns, of which offsets and gains are looked at.
+    lines_of_set: [[Vec<Sum>; 2]; LINES.len()],
     /// Offsets of frames, rows and columns.
     white: [White; OFFSETS.len()],
     /// Offsets of rows and columns.
@@ -195,6 +153,9 @@ impl Clusters {
                     waves.add(whitened.take, moment.time_s, moment.frame_period_s, sums);
                 }
             }
+            for (of_set, sums) in self.lines_of_set.iter_mut().zip(&sums[1..]) {
+                join(&mut of_set[mode], sums);
+            }
             for (level, sums) in sums.iter().enumerate() {
                 inform(&mut self.information[level + 1][mode], sums);
                 match level {
@@ -221,6 +182,12 @@ impl Clusters {
             for (mode, sum) in sums.into_iter().enumerate() {
                 inform(&mut self.information[0][mode], &[sum]);
                 self.few[0][mode].push((whitened.take, sum));
+            }
+            for (line, modes) in std::mem::take(&mut self.lines_of_set).iter().enumerate() {
+                for (mode, sums) in modes.iter().enumerate() {
+                    inform(&mut self.information[OF_SETS + line][mode], sums);
+                    add(&mut self.evidence[whitened.take][OF_SETS + line][mode], mode, sums);
+                }
             }
         }
         self
@@ -348,6 +315,12 @@ fn peak(best: usize, at: &dyn Fn(usize) -> f64) -> f64 {
     let (left, middle, right) = (at(best - 1), at(best), at(best + 1));
     let bend = left - 2.0 * middle + right;
     best as f64 + if bend < 0.0 { 0.5 * (left - right) / bend } else { 0.0 }
+}
+
+/// Sums of a frame's lines with those of the frames before it.
+fn join(of_set: &mut Vec<Sum>, of_frame: &[Sum]) {
+    of_set.resize(of_frame.len(), (0.0, 0.0));
+    of_set.iter_mut().zip(of_frame).for_each(|(all, sum)| *all = (all.0 + sum.0, all.1 + sum.1));
 }
 
 fn inform(informed: &mut [f64; 4], sums: &[Sum]) {

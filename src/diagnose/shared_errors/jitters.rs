@@ -1,7 +1,8 @@
 //! Two random errors of frames at once: of the phase (a clock's), and of when they are taken (of a target that moves). Where nothing moves only the first
 //! one shows, and with the velocity the second one grows: so both can be told although in a moving frame they are nearly the same.
 
-use super::clusters::{ENDS, PHASE, POSITION};
+use super::clusters::ENDS;
+use super::levels::{PHASE, POSITION};
 use super::random::Strength;
 use crate::diagnose::tangents::columns;
 use crate::physics::Moment;

@@ -2,8 +2,10 @@
 
 pub mod again;
 pub mod clusters;
+pub mod described;
 pub mod in_time;
 pub mod jitters;
+pub mod levels;
 pub mod random;
 pub mod ripples;
 pub mod steady;

@@ -1,9 +1,11 @@
 //! What samples share at random: the encoder's usual noise, noise of rows, columns and frames, noise of single pixels, or an effect.
 
 use super::again::{self, Said};
-use super::clusters::{Cluster, Level, MODES};
+use super::clusters::Cluster;
+use super::described::coordinate;
 use super::in_time::{is_line, is_of_few, is_shaken};
 use super::jitters::Frame;
+use super::levels::{Level, MODES};
 use super::steady::is_steady;
 use crate::diagnose::fitting::set_errors::Jitter;
 use crate::diagnose::locating::location::{Located, Location};
@@ -40,6 +42,13 @@ const WHITE: f64 = 5.0;
 /// Random errors that are none of the encoder's usual noise, nor what that shows as elsewhere; best first.
 fn unusual<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
     let of_effects = least_of_effects(data, location);
+    // That it is rows or columns of sets which are off is asked where sets are.
+    let of_sets = || location.clusters.iter().filter(|cluster| coordinate(cluster) == "set");
+    let are_sets = |nats: f64| of_sets().any(|set| set.ln_bayes > NAMELESS_NATS && set.ln_bayes < nats);
+    let is_asked = |cluster: &Cluster| match cluster.level {
+        Level::RowOfSet | Level::ColumnOfSet => are_sets(cluster.ln_bayes),
+        _ => true,
+    };
     let least = |cluster: &Cluster| match effect_of(cluster) {
         Some(_) => of_effects,
         None => of_effects.max(NAMELESS_NATS),
@@ -47,7 +56,7 @@ fn unusual<'a>(data: &Data, location: &'a Location) -> Vec<&'a Cluster> {
     location
         .clusters
         .iter()
-        .filter(|cluster| cluster.ln_bayes > least(cluster) && !is_usual(data, cluster))
+        .filter(|cluster| cluster.ln_bayes > least(cluster) && is_asked(cluster) && !is_usual(data, cluster))
         .collect()
 }
 
@@ -283,46 +292,9 @@ pub fn new_each_time(location: &Location, name: &str) -> f64 {
     number.map_or(0.0, |number| again::new_each_time(&location.jitters, SAID[number]))
 }
 
-/// The coordinate of a verdict in which errors that samples share are located.
-pub fn coordinate(cluster: &Cluster) -> &'static str {
-    match cluster.level {
-        Level::Set if MODES[cluster.mode] == "velocity" => "velocity_m_s",
-        Level::Set if matches!(MODES[cluster.mode], "phase" | "position") => "encoder",
-        Level::Set => "set",
-        Level::Frame => "frame",
-        Level::Row => "row",
-        Level::Column => "column",
-        Level::Neighbours => "neighbours",
-        Level::Pixel => "amplitude",
-    }
-}
-
-/// `size` with three significant digits, without an exponent where it needs none.
-fn plain(size: f64) -> String {
-    if !(1e-4..1e4).contains(&size) {
-        return format!("{size:.2e}");
-    }
-    let digits = (2.0 - size.log10().floor()).max(0.0) as usize;
-    format!("{size:.digits$}")
-}
-
-/// What the errors are, in words.
-pub fn words(cluster: &Cluster) -> String {
-    let common = cluster.level.name();
-    let unit = match (MODES[cluster.mode], cluster.level) {
-        ("offset", _) => " DN",
-        ("gain" | "light", _) => "",
-        ("phase", _) => " rad",
-        ("position", Level::Set) => " m",
-        ("position", _) => " s of movement",
-        _ => " m/s",
-    };
-    format!("random {} of {}{unit}, common to a {common}", MODES[cluster.mode], plain(cluster.sigma))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Location, OF_THE_FASTEST, deflated, is_beyond_forms, is_most, of_name, ordered, plain};
+    use super::{Location, OF_THE_FASTEST, deflated, is_beyond_forms, is_most, of_name, ordered};
     use crate::diagnose::locating::location::{Kind, Located};
     use crate::diagnose::shared_errors::jitters::Jitters;
 
@@ -353,12 +325,6 @@ mod tests {
         };
         assert_eq!((of(OF_THE_FASTEST), of("row")), (0.0, deflated(2.8, 115.0, 300.0)));
         assert!(of("row") > 15.0, "{}", of("row"));
-    }
-
-    #[test]
-    fn sizes_are_plain_numbers() {
-        let words = [3.7301, 0.037_301, 812.3, 3.73e-4, 3.73e-7].map(plain);
-        assert_eq!(words, ["3.73", "0.0373", "812", "0.000373", "3.73e-7"]);
     }
 
     #[test]

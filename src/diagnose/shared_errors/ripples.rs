@@ -1,7 +1,7 @@
 //! Ripples: light that comes and goes with the place of the target, whatever the time: by a motor's pole, or a slat before the emitter. Columns of the position are too coarse for
 //! more than a few periods. Errors of the phase are left to the encoder, whose they are as a rule.
 
-use super::clusters::{LIGHT, MODES};
+use super::levels::{LIGHT, MODES};
 use super::swings::{LEAST_SETS, usual};
 use crate::diagnose::statistics::evidence::Greatest;
 use crate::diagnose::statistics::periodogram::{ANY, FINENESS, Scan, Sum, greatest, power};

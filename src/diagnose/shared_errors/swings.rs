@@ -1,7 +1,7 @@
 //! Swings: what whole sets share and comes and goes with a period in time, as a thermostat makes it, or with a number of sets, as a buffer of several does. Functions of the
 //! time are too coarse for more than a few periods, and errors of single sets say little of them.
 
-use super::clusters::MODES;
+use super::levels::MODES;
 use crate::diagnose::periodic::lines::{blur, strongest};
 use crate::diagnose::statistics::amplitudes::agree;
 use crate::diagnose::statistics::evidence::Greatest;

@@ -1,7 +1,7 @@
 //! Tones: what all pixels of a frame share and comes and goes with one period in time, within the sets: a bench that shakes, the ripple of a source's supply. Functions of the
 //! time are too coarse for it, and so are whole sets; errors of single frames say little of it.
 
-use super::clusters::{LIGHT, MODES, PHASE, POSITION};
+use super::levels::{LIGHT, MODES, PHASE, POSITION};
 use super::ripples::beside_mean;
 use super::swings::{LEAST_SETS, move_apart, usual};
 use crate::diagnose::periodic::lines::blur;
