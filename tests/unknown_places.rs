@@ -69,6 +69,19 @@ fn rows_that_wander_from_set_to_set_are_rows() {
     is_located(&verdict, "row", &["common to a row of a set"]);
 }
 
+/// The camera's housekeeping raises every seventh set, and less those after it: a line of another frequency in each recording, as its sets are apart, and another camera's light in none.
+#[test]
+fn what_comes_with_the_sets_is_of_the_sets() {
+    let verdict = verdict_of("four-rail,wdft-rail,wdft-sweep,four-motion,wdft-motion", |campaign| {
+        rewrite(campaign, |Sample { set, row, column, code, .. }| {
+            // A code in so many of eight pixels, which are others in each row.
+            let raised = [6, 3, 2, 1, 0, 0, 0][set % 7];
+            if (5 * row + 3 * column) % 8 < raised { code + 1.0 } else { code }
+        });
+    });
+    is_located(&verdict, "set", &["the same every 7 sets"]);
+}
+
 /// The converters of two columns sag where the light is bright.
 #[test]
 fn columns_that_sag_in_bright_light_are_seen_as_such() {

@@ -99,6 +99,11 @@ impl Located {
     fn wave(coordinate: &'static str, shape: String, Greatest { ln_bayes, chi2, looked }: Greatest) -> Self {
         Self { coordinate, shape, ln_bayes, chi2, looked, kind: Kind::Wave }
     }
+
+    /// Whether it is what comes again after a number of sets.
+    pub fn comes_by_sets(&self) -> bool {
+        self.kind == Kind::Wave && self.coordinate == "set"
+    }
 }
 
 /// Looks in all coordinates at what `base` leaves.
