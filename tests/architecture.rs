@@ -46,7 +46,7 @@ const EDGES: &Edges = &[
     ("problem", ""),
 ];
 
-/// Which room of the diagnosis may see which others. Most see only what stands below them; a line of a room that stands above is an exception.
+/// Which room of the diagnosis may see which others. A room sees those of the lines below its own; where it sees one of a line above, both see each other.
 const ROOMS: &Edges = &[
     (
         "answering",

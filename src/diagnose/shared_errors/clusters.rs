@@ -86,7 +86,7 @@ pub struct Clusters {
 
 /// Levels whose offsets are noise where they are white.
 pub const OFFSETS: [Level; 3] = [Level::Frame, Level::Row, Level::Column];
-/// Levels over which offsets may be a wave.
+/// Levels over which offsets may be a wave, and whose frames of a set may be off together.
 const LINES: [Level; 2] = [Level::Row, Level::Column];
 
 impl Clusters {
