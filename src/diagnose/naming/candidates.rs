@@ -64,6 +64,9 @@ const UNLIKELY: [(&str, f64); 1] = [("encoder_offset", 10.0)];
 /// Choices that are looked at in one shape only: near it, all look alike.
 const IN_ONE_SHAPE: [(&str, f64, f64); 2] = [("course", 1.0, 60.0), ("course", -1.0, 1e4)];
 
+/// A choice that is looked at where no pixel tells its ambient light from the constant part of the camera's own alone.
+const OF_UNTOLD_AMBIENT: (&str, f64) = ("is_even", 1.0);
+
 /// Effects that differ from pixel to pixel, told from others only where the target is at one place: what changes with the distance differs too.
 pub const OF_ONE_PLACE: [&str; 1] = ["response_decay"];
 
@@ -161,8 +164,13 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let is_within = |value: &&f64| within.is_none_or(|(low, high)| (low..=high).contains(*value));
     let name_of_choice = choice.map_or("", |choice| effect.parameters[choice].name);
     let usual_choices = choices.iter().filter(|&&chosen| !is_seldom(effect.name, name_of_choice, chosen));
+    let tells_ambient = (0..data.pixels()).any(|pixel| data.tells_constant(pixel));
     let is_looked_at = |(chosen, value): &(f64, f64)| {
-        IN_ONE_SHAPE.iter().all(|(name, of, one)| *name != name_of_choice || of != chosen || one == value)
+        let is_of_untold = (name_of_choice, *chosen) == OF_UNTOLD_AMBIENT;
+        !(is_of_untold && tells_ambient)
+            && IN_ONE_SHAPE
+                .iter()
+                .all(|(name, of, one)| *name != name_of_choice || of != chosen || one == value)
     };
     let ways = usual_choices
         .flat_map(|&chosen| shapes.iter().filter(is_within).map(move |&value| (chosen, value)))

@@ -7,8 +7,12 @@ use std::f64::consts::TAU;
 pub const OVERTONE: usize = 2;
 /// Number of the frequency.
 pub const FREQUENCY: usize = 4;
+/// Number of whether it is even.
+pub const IS_EVEN: usize = FREQUENCY + 1;
 
-/// Relative modulation of the ambient light at twice the mains frequency, and, where a lamp is no filament, at twice that.
+/// Relative modulation of the ambient light at twice the mains frequency, and, where a lamp is no filament, at twice that. Each pixel's own ambient light is
+/// modulated (0), or as much is added to all as the root of their mean square would be (1): where recordings do not tell a pixel's ambient light from the constant part of the
+/// camera's own, what seems to be the former has the latter's texture.
 pub static EFFECT: Effect = Effect {
     name: "ambient_flicker",
     sentence: "The ambient light flickers with the mains (100 or 120 Hz), and the frames sample it at different moments.",
@@ -19,6 +23,7 @@ pub static EFFECT: Effect = Effect {
         Parameter::strength("second_cosine", "1", 0.0, (-1.0, 1.0), 0.03).looked_for(),
         Parameter::strength("second_sine", "1", 0.0, (-1.0, 1.0), 0.03).looked_for(),
         Parameter::shape("frequency_hz", "Hz", 100.0, (40.0, 400.0), &[100.0, 120.0]),
+        Parameter::choice("is_even", "1", &[0.0, 1.0]),
     ],
     place: Place::Light,
     chance: Chance::None,
@@ -32,6 +37,13 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     // cos 2a and sin 2a.
     let (twice_cosine, twice_sine) = (cosine * cosine - sine * sine, 2.0 * sine * cosine);
     let overtone = values[OVERTONE] * twice_cosine + values[OVERTONE + 1] * twice_sine;
-    let factor = 1.0 + values[0] * cosine + values[1] * sine + overtone;
-    exposure.ambient_dn.iter_mut().for_each(|ambient| *ambient *= factor);
+    let more = values[0] * cosine + values[1] * sine + overtone;
+    let all: &mut [f64] = &mut exposure.ambient_dn;
+    if values[IS_EVEN] > 0.5 {
+        let square = all.iter().map(|ambient| ambient * ambient).sum::<f64>() / all.len().max(1) as f64;
+        let usual = square.sqrt();
+        all.iter_mut().for_each(|ambient| *ambient += more * usual);
+    } else {
+        all.iter_mut().for_each(|ambient| *ambient *= 1.0 + more);
+    }
 }
