@@ -4,7 +4,7 @@ use crate::diagnose::fitting::finished::unfitted;
 use crate::diagnose::fitting::fit::Fit;
 use crate::diagnose::fitting::noise::{Noise, beyond};
 use crate::diagnose::locating::location::{LOCATED_NATS, Located, Location, locate};
-use crate::diagnose::locating::mismatch::places;
+use crate::diagnose::locating::mismatch::{Place, places};
 use crate::diagnose::naming::found::Found;
 use crate::diagnose::naming::search::Search;
 use crate::diagnose::reading::data::Data;
@@ -14,6 +14,8 @@ use crate::diagnose::shared_errors::random::{self, is_noisier, jitter, random_ef
 
 /// Errors of frames are more than the camera includes by this factor, or are found beside those.
 const MORE: f64 = 1.1;
+/// What a search with trust leaves in any coordinate is small beside what it explains by trust alone.
+const SMALL: f64 = 0.25;
 /// How often the noise is corrected.
 const NOISE_STEPS: usize = 2;
 
@@ -56,7 +58,7 @@ pub fn searched(data: &Data, baseline: Fit, stated: Noise, of_included: f64) -> 
     (beside.unwrap_or(searched), in_proportion)
 }
 
-/// A search that trusts the forms of effects, if that brings the fit to the noise; else one that does not. Where all that is left of the simulation looks like a
+/// A search that trusts the forms of effects, if that brings the fit to the noise, or [near it](leaves_little); else one that does not. Where all that is left of the simulation looks like a
 /// jitter, it is made beside that.
 fn search(data: &Data, baseline: Fit, noise: Noise, of_included: f64) -> Searched {
     let before = locate(data, &baseline, noise);
@@ -74,11 +76,20 @@ fn search(data: &Data, baseline: Fit, noise: Noise, of_included: f64) -> Searche
     let (mut found, without_trust) =
         Search::new(data, baseline, noise, inflation, of_included, located).with_trust();
     let mut after = end(&found);
-    if let Some(search) = without_trust.filter(|_| found.trusts_forms() && !places(data, &after).is_empty()) {
+    let is_doubted = |found: &Found| found.trusts_forms() && !leaves_little(found, &places(data, &after));
+    if let Some(search) = without_trust.filter(|_| is_doubted(&found)) {
         found = search.without_trust();
         after = end(&found);
     }
     Searched { found, locations: [before, after], noise }
+}
+
+/// Whether what is left, in the coordinates in which it is, is next to nothing of what each effect explains that is trusted: what the form of a strong one leaves may be as much, and a
+/// trusted one that only takes a part of that leaves the rest.
+fn leaves_little(found: &Found, left: &[Place]) -> bool {
+    let trusted = found.named.iter().filter(|named| named.is_trusted).map(|named| named.score.0);
+    let left = left.iter().map(Place::excess).fold(0.0, f64::max);
+    left <= SMALL * trusted.fold(f64::INFINITY, f64::min)
 }
 
 /// Coordinates of which effects that begin in another shape may say much more than their tangents do, and those in which tangents and columns are much alike.
