@@ -20,10 +20,11 @@ use crate::diagnose::naming::pass::THRESHOLD;
 use crate::diagnose::reading::backgrounds::counts_at_hz;
 use crate::diagnose::reading::data::Data;
 use crate::diagnose::set_aside::covered::{covered, without_light};
-use crate::diagnose::set_aside::left_out::{LeftOut, without_outliers};
+use crate::diagnose::set_aside::left_out::{LeftOut, without_outliers, without_pixels};
 use crate::diagnose::set_aside::near_full::below_full;
 use crate::diagnose::set_aside::settle::with_mask;
-use crate::diagnose::shared_errors::random::JITTERS;
+use crate::diagnose::set_aside::stuck::stuck_pixels;
+use crate::diagnose::shared_errors::random::{EXCESS_NOISE, JITTERS};
 use crate::diagnose::stated_noise;
 use crate::diagnose::statistics::evidence::tail;
 use crate::diagnose::unseen::held_out::{HeldOut, held_out};
@@ -41,6 +42,8 @@ pub struct Diagnosis {
     pub held_out: HeldOut,
     /// What the camera states or includes of noise and errors at random that is not there, in words.
     pub overstated: Vec<String>,
+    /// What pixels have of noise beyond what the camera states, in words.
+    pub understated: Option<String>,
     /// The names of dark recordings in which there is no ambient light either.
     pub without_light: Vec<String>,
     /// What was left out before anything was looked for.
@@ -79,6 +82,9 @@ pub fn diagnose(data: &Data) -> Diagnosis {
 
 fn diagnose_pixels(data: &Data) -> Diagnosis {
     let noise = noise_of(data);
+    let stuck = stuck_pixels(data, noise);
+    let speaking = without_pixels(data, &stuck);
+    let data = speaking.as_ref().unwrap_or(data);
     // A scene that stands still has no mask.
     let masked = if data.assumed.still_scene { None } else { with_mask(data, noise) };
     let (data, moved) = masked.as_ref().map_or((data, 0), |(data, moved)| (data, *moved));
@@ -125,16 +131,21 @@ fn diagnose_pixels(data: &Data) -> Diagnosis {
     }
     let mut answer = answer(data, &judgement, &held_out);
     let overstated = overstated(data, &judgement, held_out.after.chi2_per_dof);
+    let understated = understated(data, &judgement);
     answer.provenance["sets_left_out"] = json!(left_out.sets.values().map(Vec::len).sum::<usize>());
     answer.provenance["sets_left_out_of"] = json!(left_out.sets);
     answer.provenance["pixels_left_out"] = json!(left_out.pixels);
+    let left_out = left_out.with_stuck(data, &stuck);
+    answer.provenance["pixels_stuck"] = json!(left_out.stuck);
     answer.provenance["pixels_unlike_the_mask"] = json!(moved);
     answer.provenance["overstated"] = json!(overstated);
+    answer.provenance["understated"] = json!(understated);
     answer.provenance["background_counts_at_hz"] = json!(counts_at_hz(&data.takes));
     let without_light = without_light(data);
     answer.provenance["recordings_without_any_light"] = json!(without_light);
     answer.provenance["own_phases"] = json!(judgement.fit.pixels.at_frequencies);
-    Diagnosis { judgement, held_out, overstated, without_light, left_out, answer, geometry: data.geometry() }
+    let geometry = data.geometry();
+    Diagnosis { judgement, held_out, overstated, understated, without_light, left_out, answer, geometry }
 }
 
 /// Sets that were not seen are explained where they have no more chi squared a sample: noise alone has 1.
@@ -161,6 +172,20 @@ fn overstated(data: &Data, judgement: &Judgement, chi2_per_dof: f64) -> Vec<Stri
         }
     }
     words
+}
+
+/// Of what is told the variance is so many times what is stated, at least.
+const MORE_NOISE: f64 = 1.05;
+
+/// How much more noise pixels have than a camera that is described states, in words; nothing where that has a name.
+fn understated(data: &Data, judgement: &Judgement) -> Option<String> {
+    let is_named = judgement.random.iter().any(|(name, _)| *name == EXCESS_NOISE);
+    let (found, stated, signal_dn) = (judgement.noise, stated_noise(data), data.typical_signal_dn());
+    let times = |signal_dn: f64| found.variance(signal_dn) / stated.variance(signal_dn);
+    (!data.assumed.camera && !is_named && times(signal_dn) > MORE_NOISE).then(|| {
+        let (there, dark) = (times(signal_dn), times(0.0));
+        format!("{there:.2} times its variance at a signal of {signal_dn:.0} DN, {dark:.2} times in the dark")
+    })
 }
 
 /// The noise that the camera's description gives, or, without one, what the recordings show.

@@ -37,9 +37,31 @@ fn pixels(data: &Data, numbers: [Vec<f64>; OWN], at_frequencies: Vec<AtFrequency
 pub fn linear(data: &Data, counts: &(dyn Fn(usize) -> bool + Sync)) -> Arc<Pixels> {
     let own_phases = OwnPhases::of(data, counts);
     let mut numbers = numbers(data, counts, &own_phases);
+    fill(data, &mut numbers);
     numbers[1].iter_mut().for_each(|phase_rad| *phase_rad = own_phases.beside_others(*phase_rad));
     split_light(data, &mut numbers);
     Arc::new(pixels(data, numbers, own_phases.at_frequencies()))
+}
+
+/// Gives a pixel that has no samples the mean light of those beside it that see the same, target or background: what falls there others get a part of, by whatever way.
+fn fill(data: &Data, [amplitude_dn, phase_rad, constant_dn, ambient_dn]: &mut [Vec<f64>; OWN]) {
+    let geometry = data.geometry();
+    let samples = data.samples_of_pixels();
+    for pixel in (0..data.pixels()).filter(|&pixel| samples[pixel] == 0) {
+        let is_alike = |&other: &usize| samples[other] > 0 && data.target[other] == data.target[pixel];
+        let beside: Vec<usize> = geometry.beside(pixel).into_iter().flatten().filter(is_alike).collect();
+        if beside.is_empty() {
+            continue;
+        }
+        let mean = |of: &dyn Fn(usize) -> f64| {
+            beside.iter().map(|&other| of(other)).sum::<f64>() / beside.len() as f64
+        };
+        let cosine = mean(&|other| amplitude_dn[other] * phase_rad[other].cos());
+        let sine = mean(&|other| amplitude_dn[other] * phase_rad[other].sin());
+        let [constant, ambient] = [&*constant_dn, &*ambient_dn].map(|all| mean(&|other| all[other]));
+        (amplitude_dn[pixel], phase_rad[pixel]) = (cosine.hypot(sine), sine.atan2(cosine));
+        (constant_dn[pixel], ambient_dn[pixel]) = (constant, ambient);
+    }
 }
 
 /// The pixels' own numbers by that fit, where pixels have these `own_phases` at other modulation frequencies than the usual one.

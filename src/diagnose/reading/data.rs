@@ -180,7 +180,7 @@ impl Data {
     }
 
     /// How many samples of each pixel count.
-    fn samples_of_pixels(&self) -> Vec<usize> {
+    pub fn samples_of_pixels(&self) -> Vec<usize> {
         let pixels = self.pixels();
         let mut samples = vec![0; pixels];
         for frame in self.takes.iter().flat_map(|take| take.signal_dn.chunks(pixels)) {

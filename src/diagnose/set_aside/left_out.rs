@@ -17,9 +17,11 @@ const LASTS: usize = 3;
 pub struct LeftOut {
     /// Sets of each recording, by their numbers in it.
     pub sets: BTreeMap<String, Vec<usize>>,
-    /// Pixels, by row and column of the sensor.
+    /// Pixels with noise of their own, by row and column of the sensor.
     pub pixels: Vec<(usize, usize)>,
-    /// The same pixels by their numbers among those that are looked at, and the sets by theirs among all.
+    /// Pixels that show the same code in every frame, or none that counts, likewise.
+    pub stuck: Vec<(usize, usize)>,
+    /// The noisy pixels by their numbers among those that are looked at, and the sets by theirs among all.
     noisy: Vec<usize>,
     outlying: Vec<usize>,
     /// Where sets in a row are, most significant first.
@@ -52,7 +54,7 @@ fn lasting(data: &Data, series: &Series, outlying: &[usize]) -> Vec<Place> {
         (take, set + 1) == next
     };
     let runs = seen.chunk_by(follow).filter(|run| run.len() >= LASTS);
-    let mut places: Vec<Place> = runs
+    let mut lasting: Vec<Place> = runs
         .map(|run| {
             let chi2: f64 = run.iter().map(|seen| seen.chi2.0 - seen.chi2.1 as f64).sum();
             let [first, last] = [run[0], run[run.len() - 1]].map(|seen| sets[seen.number].1);
@@ -67,12 +69,19 @@ fn lasting(data: &Data, series: &Series, outlying: &[usize]) -> Vec<Place> {
             }
         })
         .collect();
-    places.sort_by(|one, other| other.ln_bayes.total_cmp(&one.ln_bayes));
-    places
+    lasting.sort_by(|one, other| other.ln_bayes.total_cmp(&one.ln_bayes));
+    lasting
 }
 
-fn without_pixels(data: &Data, noisy: &[usize]) -> Option<Data> {
-    (!noisy.is_empty()).then(|| data.only(|_, pixel| !noisy.contains(&pixel)))
+/// Row and column of `pixels`.
+fn places(data: &Data, pixels: &[usize]) -> Vec<(usize, usize)> {
+    let (places, geometry) = (data.grid.pixels(), data.described.geometry);
+    pixels.iter().map(|&pixel| geometry.row_column(places[pixel])).collect()
+}
+
+/// `data` without some `pixels`, if there are any.
+pub fn without_pixels(data: &Data, pixels: &[usize]) -> Option<Data> {
+    (!pixels.is_empty()).then(|| data.only(|_, pixel| !pixels.contains(&pixel)))
 }
 
 impl LeftOut {
@@ -82,9 +91,13 @@ impl LeftOut {
         for &(take, set) in outlying.iter().filter_map(|&number| all.get(number)) {
             sets.entry(data.takes[take].name.clone()).or_default().push(set);
         }
-        let (places, width) = (data.grid.pixels(), data.described.geometry.width);
-        let place = |&pixel: &usize| (places[pixel] / width, places[pixel] % width);
-        Self { sets, pixels: noisy.iter().map(place).collect(), noisy, outlying, lasting: Vec::new() }
+        Self { sets, pixels: places(data, &noisy), noisy, outlying, ..Self::default() }
+    }
+
+    /// The same, and pixels that are `stuck`.
+    #[must_use]
+    pub fn with_stuck(self, data: &Data, stuck: &[usize]) -> Self {
+        Self { stuck: places(data, stuck), ..self }
     }
 
     /// `data` without what is to be left out of it beside the effects of `fitted`, where those are other sets: a strong effect hides outliers, and may look like some. Where

@@ -5,3 +5,4 @@ pub mod left_out;
 pub mod near_full;
 pub mod noisy_pixels;
 pub mod settle;
+pub mod stuck;

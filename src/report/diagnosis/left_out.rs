@@ -8,8 +8,13 @@ const MOST: usize = 8;
 
 /// What is `left_out`, a sentence each.
 pub fn sentences(left_out: &LeftOut) -> Vec<String> {
-    let LeftOut { sets, pixels, .. } = left_out;
+    let LeftOut { sets, pixels, stuck, .. } = left_out;
     let mut sentences = Vec::new();
+    let place = |(row, column): &(usize, usize)| format!("row {row} column {column}");
+    if !stuck.is_empty() {
+        let count = counted(stuck.len(), "pixel");
+        sentences.push(format!("{count} of which no frame shows light: {}", told(stuck, place)));
+    }
     if !sets.is_empty() {
         let of = |(name, sets): (&String, &Vec<usize>)| format!("{name} {}", told(sets, ToString::to_string));
         let count = counted(sets.values().map(Vec::len).sum(), "set");
@@ -17,7 +22,7 @@ pub fn sentences(left_out: &LeftOut) -> Vec<String> {
         sentences.push(format!("{count} unlike the neighbours: {}", of.join("; ")));
     }
     if !pixels.is_empty() {
-        let of = told(pixels, |(row, column)| format!("row {row} column {column}"));
+        let of = told(pixels, place);
         sentences.push(format!(
             "{} far noisier, or far quieter, than the others: {of}",
             counted(pixels.len(), "pixel")

@@ -23,6 +23,9 @@ pub fn remarks(diagnosis: &Diagnosis) -> Vec<String> {
     let shared = diagnosis.judgement.shared_noise.iter().map(|shared| {
         format!("Noise beside what the camera states: {shared}. No physics is left out by that.")
     });
+    let understated = diagnosis.understated.iter().map(|words| {
+        format!("There is more noise than the camera states: {words}. Its read noise or its gain may be stated wrongly.")
+    });
     let overstated = diagnosis.overstated.iter().map(|words| {
         format!("The camera states more than there is of {words}. What is weaker than it states is not seen.")
     });
@@ -35,7 +38,13 @@ pub fn remarks(diagnosis: &Diagnosis) -> Vec<String> {
     let without_light = diagnosis.without_light.iter().map(|name| {
         format!("No light at all comes in in {name}, neither the camera's nor ambient light: no recording states that.")
     });
-    shared.chain(overstated).chain(own_phases).chain(without_light).chain(left_out).collect()
+    shared
+        .chain(understated)
+        .chain(overstated)
+        .chain(own_phases)
+        .chain(without_light)
+        .chain(left_out)
+        .collect()
 }
 
 /// What these recordings would have shown, of the first effects.
