@@ -153,6 +153,14 @@ fn a_lag_may_know_the_pauses() {
     assert!((found - 0.01).abs() < 4.0 * sigma, "{found} +- {sigma}");
 }
 
+/// A sweep alone does not tell ambient light, which is even, from the constant light of a target with a texture: an even flicker is none in proportion to both, nor another camera's.
+#[test]
+fn a_flicker_in_a_sweep_alone_is_a_lamps() {
+    let lamp = "ambient_flicker:cosine=0.05,sine=0.03,frequency_hz=100.03,is_even=1";
+    let verdict = explained("wdft-sweep", lamp);
+    assert_eq!(parameter(&verdict, "is_even").0, 1.0, "{verdict:#}");
+}
+
 /// A texture that moves within the target's outline, which stays.
 #[test]
 fn a_texture_that_moves_is_named() {
