@@ -8,7 +8,7 @@ use rand::{Rng, RngExt};
 /// Sensor sizes, in pixels.
 const SIZES: [(usize, usize); 6] = [(12, 10), (14, 12), (16, 12), (20, 15), (24, 18), (32, 24)];
 /// Most pixels times frames of a campaign.
-const MOST_SAMPLES: usize = 500_000;
+const MOST_SAMPLES: usize = 900_000;
 /// Focal length over width: a field of view of about 40 degrees.
 const FOCAL_LENGTH: f64 = 1.375;
 
