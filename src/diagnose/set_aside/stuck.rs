@@ -3,7 +3,7 @@
 use crate::diagnose::fitting::noise::Noise;
 use crate::diagnose::reading::data::Data;
 
-/// So many samples at least, whose noise is at least so many DN² each, are never the same by chance: 0.42 to the nineteenth is 7e-8.
+/// So many samples at least, whose noise is at least so many DN² each, are hardly the same by chance: a code has 0.56 of them at most (of the variance a twelfth is rounding), and 0.56 to the twentieth is 1e-5.
 const LEAST: usize = 20;
 const LEAST_DN2: f64 = 0.5;
 
