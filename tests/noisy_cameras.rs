@@ -37,6 +37,16 @@ fn shared(verdict: &Value) -> &str {
     verdict["provenance"]["noise"]["shared"].as_str().unwrap_or_default()
 }
 
+/// How much more noise than is stated is said to be there, in words; nothing where none is.
+fn understated(verdict: &Value) -> Option<&str> {
+    verdict["provenance"]["understated"].as_str()
+}
+
+/// The number with which such words begin.
+fn times(words: &str) -> f64 {
+    words.split(' ').next().unwrap().parse().unwrap()
+}
+
 /// What is added to a code.
 type Added = fn(Place, f64) -> f64;
 
@@ -82,6 +92,12 @@ fn noise_that_was_not_stated_raises_no_alarm() {
         // 9 DN² of read noise and 1/12 of rounding, 0.69 of 9 more.
         let is_more = (floor_dn2 - 15.3).abs() < 1.0;
         assert_eq!(is_more, what.starts_with("more of all noise"), "{what}: {floor_dn2}");
+        // All of it, shot noise too, has 1.69 times its variance.
+        let said = understated(&verdict);
+        match is_more {
+            true => assert!(said.is_some_and(|said| (times(said) - 1.69).abs() < 0.1), "{what}: {said:?}"),
+            false => assert!(said.is_none_or(|said| times(said) < 1.3), "{what}: {said:?}"),
+        }
     }
 }
 

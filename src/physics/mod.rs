@@ -35,7 +35,7 @@ pub use effect::{Act, Active, Chance, Effect, Fidelity, Parameter, Place};
 pub use effects::EFFECTS;
 pub use exposure::{Before, Exposure, Included, Moment};
 pub use formula::{COORDINATES, Formula, Target};
-pub use per_pixel::PerPixel;
+pub use per_pixel::{PerPixel, root_mean_square};
 pub use pixels::{AtFrequency, Pixels, is_same_frequency};
 pub use powers::ln;
 pub use pulse::Pulse;

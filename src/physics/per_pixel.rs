@@ -57,6 +57,11 @@ impl PartialEq for PerPixel {
     }
 }
 
+/// Root of the mean square of what pixels have; no number where there is no pixel.
+pub fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

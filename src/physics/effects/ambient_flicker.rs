@@ -1,6 +1,6 @@
 //! Ambient light from lamps on the mains.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, cos_sin};
+use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Place, cos_sin, root_mean_square};
 use std::f64::consts::TAU;
 
 /// Number of the overtone's cosine among the parameters; its sine comes after it.
@@ -40,8 +40,7 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     let more = values[0] * cosine + values[1] * sine + overtone;
     let all: &mut [f64] = &mut exposure.ambient_dn;
     if values[IS_EVEN] > 0.5 {
-        let square = all.iter().map(|ambient| ambient * ambient).sum::<f64>() / all.len().max(1) as f64;
-        let usual = square.sqrt();
+        let usual = root_mean_square(all);
         all.iter_mut().for_each(|ambient| *ambient += more * usual);
     } else {
         all.iter_mut().for_each(|ambient| *ambient *= 1.0 + more);

@@ -1,6 +1,8 @@
 //! The light of another camera.
 
-use crate::physics::{Act, Chance, Effect, Exposure, Fidelity, Parameter, Pixels, Place, cos_sin};
+use crate::physics::{
+    Act, Chance, Effect, Exposure, Fidelity, Parameter, Pixels, Place, cos_sin, root_mean_square,
+};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -80,8 +82,8 @@ fn act(values: &[f64], exposure: &mut Exposure) {
     };
     let usual = match values[GOES_WITH] {
         0.0 => 1.0,
-        OWN_LIGHT => usual(own_dn),
-        _ => usual(&shape),
+        OWN_LIGHT => root_mean_square(own_dn),
+        _ => root_mean_square(&shape),
     };
     // Where there is no light, or it is no number, nothing goes with it.
     if usual.is_nan() || usual <= 0.0 {
@@ -96,11 +98,6 @@ fn act(values: &[f64], exposure: &mut Exposure) {
         }
         None => exposure.signal_dn.iter_mut().zip(shape).for_each(|(signal, shape)| *signal += per * shape),
     }
-}
-
-/// Root of the mean square of what pixels have, DN.
-fn usual(all_dn: &[f64]) -> f64 {
-    (all_dn.iter().map(|dn| dn * dn).sum::<f64>() / all_dn.len() as f64).sqrt()
 }
 
 /// How much falls on each pixel by how it rises and falls from the image's middle, 1 where that is most; nothing where it is the same in all.
