@@ -1,6 +1,6 @@
 //! `vuris diagnose` on what is known by one form, and comes in another: wells that few samples fill, or that have a knee, shifters of many settings, encoders that control what they
 //! measure, noise of few samples, emitters on one side, scatter nearby, taps of half a turn, bits of a wrong weight, walls by another law or on one side, light that
-//! fades unevenly.
+//! fades unevenly, walls that give more light on one side.
 
 mod diagnosed;
 mod rewritten;
@@ -101,6 +101,16 @@ fn a_shifter_has_an_error_of_each_of_its_settings() {
     let settings = settings.chain(["settings_a_turn=64".to_owned()]).collect::<Vec<_>>().join(",");
     let verdict = explained("four-sweep,four-rail", &format!("phase_step_errors:{settings}"));
     assert_eq!(parameter(&verdict, "settings_a_turn").0, 64.0);
+    // What all have in common is the pixels' own phase. The sweep's offsets leave every fourth setting out.
+    let known = (0..64).map(|setting| parameter(&verdict, &format!("setting_{setting}_rad"))).enumerate();
+    let taken: Vec<(usize, (f64, f64))> = known.filter(|(_, (_, sigma))| *sigma < 0.1).collect();
+    let common = taken.iter().map(|(setting, _)| error(*setting)).sum::<f64>() / taken.len() as f64;
+    let pulls = taken.iter().map(|(setting, (found, sigma))| (found - (error(*setting) - common)) / sigma);
+    let greatest = pulls.fold(0.0, |greatest: f64, pull| greatest.max(pull.abs()));
+    let well = taken.iter().filter(|(_, (_, sigma))| *sigma < 4e-3).count();
+    assert!(greatest < 4.5 && taken.len() == 48 && well > 24, "{greatest}, {well} of {}", taken.len());
+    let sentence = verdict["effects"][0]["sentence"].as_str().unwrap();
+    assert!(sentence.contains("stated without it"), "{sentence}");
 }
 
 /// A shifter that has only so many settings, each where it should be: how many is found, with one number, whether it takes the nearest or the last before a phase.
@@ -253,6 +263,17 @@ fn is_found(share: f64, choice: &str, chosen: &str) {
     assert_eq!(parameter(&verdict, choice).0.to_string(), chosen);
     let (found, sigma) = parameter(&verdict, "wall_distance_m");
     assert!((found - 0.8).abs() < 4.0 * sigma, "{chosen}: {found} +- {sigma}");
+}
+
+/// Light that comes by a wall may be more of what the right of the image sees than of what its left does: nothing is left to emitters aside.
+#[test]
+fn a_second_path_may_be_stronger_on_one_side() {
+    let way = "relative_amplitude=0.1,more_on_the_right=0.1,wall_distance_m=0.8";
+    let verdict = explained("four-motion,four-rail,wdft-rail", &format!("multipath_interference:{way}"));
+    for (name, truth) in [("relative_amplitude", 0.1), ("more_on_the_right", 0.1), ("more_below", 0.0)] {
+        let (found, sigma) = parameter(&verdict, name);
+        assert!((found - truth).abs() < 4.0 * sigma && sigma < 0.02, "{name}: {found} +- {sigma}");
+    }
 }
 
 /// A wall on one side of the image has its mirror image nearer to what that side sees: nothing is left to emitters aside.

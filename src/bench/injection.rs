@@ -145,7 +145,7 @@ mod tests {
         let crosstalk = injection("electrical_crosstalk:sine_dn=-2.5").unwrap();
         assert_eq!(crosstalk.values, [0.0, -2.5]);
         let two = injection("multipath_interference:relative_amplitude=0.2,wall_distance_m=1.5").unwrap();
-        assert_eq!(two.values, [0.2, 1.5, 0.0, 0.0]);
+        assert_eq!(two.values, [0.2, 0.0, 0.0, 1.5, 0.0, 0.0]);
     }
 
     #[test]

@@ -43,19 +43,27 @@ fn with(effect: &'static Effect, values: &[f64]) -> Conditions {
     Conditions { effects: vec![Active { effect, values: values.to_vec() }], ..Conditions::table_1() }
 }
 
-/// Values of the first two parameters of `effect`, from one bound to the other; the others are off.
+/// The first two numbers of `effect` that its usual form has: neither choices nor what is looked for by itself.
+fn first_two(effect: &Effect) -> [usize; 2] {
+    let is_usual = |parameter: &Parameter| !parameter.is_choice && !parameter.is_looked_for;
+    let mut usual = (0..effect.parameters.len()).filter(|&number| is_usual(&effect.parameters[number]));
+    [0, 1].map(|number| usual.next().unwrap_or(number))
+}
+
+/// Values of the [first two](first_two) parameters of `effect`, from one bound to the other; the others are off.
 fn sizes(effect: &Effect) -> Vec<Vec<f64>> {
+    let [first, second] = first_two(effect);
     let along = |number: usize| {
         let (low, high) = effect.parameters[number].bounds;
         (0..SIZES).map(move |n| low + (high - low) * f64::from(n) / f64::from(SIZES - 1))
     };
     let pair = |one: f64, other: f64| {
         let mut values = effect.off();
-        (values[0], values[1]) = (one, other);
+        (values[first], values[second]) = (one, other);
         values
     };
-    along(0)
-        .flat_map(|one| along(1).map(move |other| (one, other)))
+    along(first)
+        .flat_map(|one| along(second).map(move |other| (one, other)))
         .map(|(one, other)| pair(one, other))
         .collect()
 }

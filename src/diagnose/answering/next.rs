@@ -270,6 +270,7 @@ mod tests {
     /// An effect is not told from a rival that has its very shape, whichever of the rival's that is, and hardly from one that has a shape on either side.
     #[test]
     fn a_rival_is_tried_in_every_shape() {
+        use crate::physics::effects::multipath_interference::{SHARE, WALL};
         const PATH: &str = "multipath_interference";
         let recordings = taken(Geometry { width: 16, height: 12 }, 7, &[], &["four-rail"]).unwrap();
         let data = Data::of(&recordings, Vec::new()).unwrap();
@@ -280,7 +281,7 @@ mod tests {
         let proposal = PROPOSALS.iter().find(|proposal| proposal.what.contains("reversed")).unwrap();
         let share_left = |wall_m: f64, rival: &Candidate| {
             let mut own = Piece::off(PATH, &[0], &[0]);
-            own.values[..2].copy_from_slice(&[0.01, wall_m]);
+            (own.values[SHARE], own.values[WALL]) = (0.01, wall_m);
             let known = Fit { pieces: vec![own], ..baseline.clone() };
             let pair = Pair::of(&data, &known, &data.takes[0], proposal, 0);
             let [left, explained] = pair.separation(noise, &known.pieces, rival);

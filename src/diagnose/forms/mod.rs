@@ -11,4 +11,5 @@ pub mod refined;
 pub mod roundings;
 pub mod soft_wells;
 pub mod uneven;
+pub mod uneven_walls;
 pub mod whole_rounding;

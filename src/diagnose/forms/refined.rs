@@ -6,6 +6,7 @@ use super::other_camera::{OTHER_CAMERA, with_spot};
 use super::overtones::{OF_CODES, is_longer};
 use super::roundings::OF_SHIFTER;
 use super::soft_wells::{OF_WELLS, with_knee};
+use super::uneven_walls::{OF_WALLS, with_slopes};
 use super::whole_rounding::with_whole_rounding;
 use crate::diagnose::fitting::finished::finished;
 use crate::diagnose::fitting::fit::{End, Fit, WHOLE, fit_led};
@@ -24,7 +25,6 @@ const SELDOM: [(&str, &str, &[f64]); 3] = [
     (OF_WALLS, LONGER, &[-2.0, 0.5]),
     (OF_WALLS, SIDE, &[1.0, 0.5, -0.5, -1.0]),
 ];
-const OF_WALLS: &str = "multipath_interference";
 const LONGER: &str = "is_longer_by_a_constant";
 const SIDE: &str = "wall_beside";
 /// A form over the codes repeats among the signals so often at least.
@@ -68,8 +68,22 @@ fn ways(fitted: &Fit, name: &'static str) -> Vec<Entrant> {
 
 /// What is `fitted`, or the same with an effect of which `is_new` in a form that is seldom, where that fits clearly better by no more numbers.
 pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Fit {
+    // What differs over the image may look like a wall on one side.
+    let uneven = is_new(OF_WALLS).then(|| with_slopes(data, &fitted, noise)).flatten();
+    let mut is_other = false;
     while let Some(better) = better(data, &fitted, noise, is_new) {
-        fitted = better;
+        (fitted, is_other) = (better, true);
+    }
+    if let Some(mut uneven) = uneven {
+        while let Some(better) = better(data, &uneven, noise, is_new) {
+            uneven = better;
+        }
+        if uneven.cost() < fitted.cost() {
+            (fitted, is_other) = (uneven, false);
+        }
+    }
+    if is_other && is_new(OF_WALLS) {
+        fitted = with_slopes(data, &fitted, noise).unwrap_or(fitted);
     }
     if is_new(OF_CODES) {
         fitted = with_bits(data, fitted, noise);

@@ -145,6 +145,7 @@ mod tests {
     use crate::diagnose::reading::data::Data;
     use crate::diagnose::stated_noise;
     use crate::frames::Geometry;
+    use crate::physics::effects::multipath_interference::{SHARE, WALL};
 
     /// Light by way of a wall, far above the noise: of what comes from afar to where it explains all, the last steps count; of what never will, they do not.
     #[test]
@@ -173,8 +174,8 @@ mod tests {
                 led: None,
             };
             let entrants = || {
-                let mut wall = entrant(3, "multipath_interference", &[0, 1]);
-                wall.pieces[0].values[1] = 0.2;
+                let mut wall = entrant(3, "multipath_interference", &[SHARE, WALL]);
+                wall.pieces[0].values[WALL] = 0.2;
                 vec![wall, entrant(5, "image_lag", &[0]), entrant(8, "phase_step_scale", &[0])]
             };
             let fits = fitted(&data, &baseline, entrants(), noise);

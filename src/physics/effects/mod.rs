@@ -28,7 +28,7 @@ mod lens_scatter;
 mod mixed_pixels;
 mod modulation_frequency_error;
 pub mod multi_camera_interference;
-mod multipath_interference;
+pub mod multipath_interference;
 mod phase_drift;
 pub mod phase_step_errors;
 mod phase_step_scale;
