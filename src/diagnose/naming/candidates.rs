@@ -7,6 +7,7 @@ use crate::diagnose::forms::refined::is_seldom;
 use crate::diagnose::forms::roundings::rounded;
 use crate::diagnose::periodic::lines::Series;
 use crate::diagnose::reading::data::Data;
+use crate::diagnose::reading::frequencies::{Frequency, frequencies};
 use crate::diagnose::reading::included::included_of;
 use crate::diagnose::tangents::pieces::{OF_BOTH_FORMS, Piece, Variant};
 use crate::physics::{EFFECTS, Effect};
@@ -32,13 +33,17 @@ enum Grouping {
     Scheme,
     /// The same, but for recordings of many frames a set: numbers of each of these are many, and a weak effect shows in few of them.
     FewFrames,
+    /// Those of recordings at one modulation frequency, where there are several.
+    Frequency,
     /// Each recording has its own.
     Take,
 }
 
 /// Effects whose values need not be the same in all recordings: their parameters belong to frames of a set, their phase or their clock starts
-/// anew. Each is tried in all these ways.
-const GROUPINGS: [(&str, &[Grouping]); 8] = [
+/// anew, a synthesiser has another setting for each frequency, at which waveforms are others, too. Each is tried in all these ways.
+const GROUPINGS: [(&str, &[Grouping]); 10] = [
+    ("modulation_frequency_error", &[Grouping::All, Grouping::Frequency]),
+    ("correlation_harmonics", &[Grouping::All, Grouping::Frequency]),
     ("ambient_flicker", &[Grouping::All, Grouping::Take]),
     ("phase_step_errors", &[Grouping::Scheme, Grouping::FewFrames]),
     ("frame_gain", &[Grouping::Scheme, Grouping::FewFrames]),
@@ -156,8 +161,13 @@ fn variants(effect: &'static Effect, data: &Data, found: Option<&[f64]>) -> Vec<
     let mut variants = Vec::new();
     let of_many = data.schemes().into_iter().filter(|&frames| frames >= MANY_FRAMES).count();
     let has_both = of_many > 0 && of_many < data.schemes().len();
-    let groupings: Vec<Grouping> =
-        groupings.iter().copied().filter(|by| *by != Grouping::FewFrames || has_both).collect();
+    let has_several = frequencies(&data.takes).len() > 1;
+    let tells = |by: &Grouping| match by {
+        Grouping::FewFrames => has_both,
+        Grouping::Frequency => has_several,
+        _ => true,
+    };
+    let groupings: Vec<Grouping> = groupings.iter().copied().filter(tells).collect();
     let usual = of_effect(&UNLIKELY, effect).filter(|_| !data.assumed.camera).unwrap_or(1.0);
     let seen_dn = if effect.name == SMOOTH.0 { data.span_dn() } else { f64::INFINITY };
     let within = shape.map(|shape| effect.parameters[shape].bounds_within(full_scale_dn));
@@ -222,6 +232,11 @@ fn pieces(
             let is_looked_at = |frames: &usize| by == Grouping::Scheme || *frames < MANY_FRAMES;
             data.schemes().into_iter().filter(is_looked_at).map(of).collect()
         }
+        Grouping::Frequency => {
+            let is_at = |take: usize, frequency| Frequency::of(&data.takes[take]) == Some(frequency);
+            let of = |frequency| all.iter().copied().filter(|&take| is_at(take, frequency)).collect();
+            frequencies(&data.takes).into_iter().map(of).collect()
+        }
     };
     groups
         .into_iter()
@@ -230,7 +245,7 @@ fn pieces(
             // A parameter of a frame that there is not, and one that each recording has for itself.
             let there = |&number: &usize| match by {
                 Grouping::Scheme | Grouping::FewFrames => number < frames,
-                Grouping::All => !effect.parameters[number].is_of_recording,
+                Grouping::All | Grouping::Frequency => !effect.parameters[number].is_of_recording,
                 Grouping::Take => true,
             };
             let is_taken =
@@ -260,5 +275,27 @@ mod tests {
         };
         assert_eq!(most(&["four-motion"]), Some(3));
         assert_eq!(most(&["four-motion", "wdft-rail"]), Some(4));
+    }
+    /// A synthesiser may be off at one of the frequencies alone: where there are several, each is tried with a number of its own.
+    #[test]
+    fn each_frequency_may_have_its_own() {
+        let size = Geometry { width: 4, height: 3 };
+        let groups = |hz: [f64; 3]| {
+            let recordings = taken(size, 2, &[], &["four-rail", "wdft-rail", "four-motion"]).unwrap();
+            let mut data = Data::of(&recordings, Vec::new()).unwrap();
+            for (take, hz) in data.takes.iter_mut().zip(hz) {
+                take.moments.iter_mut().for_each(|moment| moment.frequency_hz = hz);
+            }
+            let all = candidates(&data, &Series::default());
+            let is_it = |candidate: &&Candidate| candidate.effect.name == "modulation_frequency_error";
+            let variants = &all.iter().find(is_it).unwrap().variants;
+            let takes = |variant: &Variant| {
+                variant.pieces.iter().map(|piece| piece.takes.clone()).collect::<Vec<_>>()
+            };
+            variants.iter().map(takes).collect::<Vec<_>>()
+        };
+        let all = vec![vec![0, 1, 2]];
+        assert_eq!(groups([30e6; 3]), vec![all.clone()]);
+        assert_eq!(groups([40e6, 20e6, 40e6]), [all, vec![vec![1], vec![0, 2]]]);
     }
 }

@@ -41,6 +41,11 @@ fn all(takes: &[Take]) -> Vec<(Frequency, usize)> {
     all
 }
 
+/// All that there are, the lowest first.
+pub fn frequencies(takes: &[Take]) -> Vec<Frequency> {
+    all(takes).into_iter().map(|(frequency, _)| frequency).collect()
+}
+
 /// That of most frames, of several.
 pub fn usual(takes: &[Take]) -> Option<Frequency> {
     let all = all(takes);
@@ -50,6 +55,8 @@ pub fn usual(takes: &[Take]) -> Option<Frequency> {
 /// All but that of most frames.
 pub fn others(takes: &[Take]) -> Vec<Frequency> {
     let usual = usual(takes);
-    let others = all(takes).into_iter().map(|(frequency, _)| frequency);
-    others.filter(|frequency| usual.is_some_and(|usual| usual != *frequency)).collect()
+    frequencies(takes)
+        .into_iter()
+        .filter(|frequency| usual.is_some_and(|usual| usual != *frequency))
+        .collect()
 }
