@@ -28,6 +28,8 @@ const LEAST_SHARE: f64 = 0.1;
 const LEAST_PIXELS: usize = 30;
 /// Own phases are delays where that is clear by so many nats.
 const DELAY_NATS: f64 = 10.0;
+/// Patterns of what pixels have at two frequencies are one where they agree by so many standard deviations of what noise makes.
+const ALIKE: f64 = 4.0;
 /// Pixels that are so many times as far off as usual (median) do not see what others do.
 const FAR_OFF: f64 = 7.0;
 
@@ -149,7 +151,12 @@ impl Phasors {
                 untrended(&seen, times).norm_squared() / noise
             };
             let nats = 0.5 * (seen.len() - TREND) as f64 * (square(1.0) / square(delays)).ln();
-            if nats > DELAY_NATS {
+            // Without a pattern at both, what else there is decides: it is nearer to noise where that is multiplied.
+            let here = DVector::from_iterator(seen.len(), seen.iter().map(|&pixel| self.phase_rad[pixel]));
+            let (here, there) = (without_trend(geometry, &seen, &here), untrended(&seen, 0.0));
+            let are_alike =
+                here.dot(&there) > ALIKE * here.norm() * there.norm() / (seen.len() as f64).sqrt();
+            if nats > DELAY_NATS && are_alike {
                 times = delays;
             }
         }
@@ -183,29 +190,34 @@ mod tests {
 
     const GEOMETRY: Geometry = Geometry { width: 16, height: 12 };
     /// The other frequency over the usual one.
-    const RATIOS: [f64; 3] = [4.0 / 3.0, 0.75, 0.5];
+    const RATIOS: [f64; 4] = [2.0, 4.0 / 3.0, 0.75, 0.5];
     /// What all pixels have there besides, rad, and the noise of each, rad.
     const ALL_RAD: f64 = 2.5;
     const NOISE_RAD: f64 = 0.003;
 
     /// What is said of pixels whose own phases are `own`, rad, and at another frequency, which is so many times the usual one, so many times that and `ALL_RAD`; four pixels see something else.
     fn said(own: impl Fn(usize) -> f64, ratio: f64, times: f64) -> (f64, f64) {
+        said_in_noise(own, ratio, times, NOISE_RAD)
+    }
+
+    /// The same where the noise there is so much, rad.
+    fn said_in_noise(own: impl Fn(usize) -> f64, ratio: f64, times: f64, noise_rad: f64) -> (f64, f64) {
         let count = GEOMETRY.pixels();
         let mut target = vec![true; count];
         target[..20].fill(false);
-        let of = |seed: u64, times: f64, all_rad: f64| {
+        let of = |seed: u64, times: f64, all_rad: f64, noise_rad: f64| {
             let noise = Draws::of(seed, 1).normal(count);
             let far = |pixel: usize| if pixel % 50 == 40 { 2.0 * seed as f64 } else { 0.0 };
             let phase = |pixel: usize| {
-                3.0 + times * (own(pixel) - 3.0) + all_rad + NOISE_RAD * noise[pixel] + far(pixel)
+                3.0 + times * (own(pixel) - 3.0) + all_rad + noise_rad * noise[pixel] + far(pixel)
             };
             // The background is anywhere.
             let phase_rad = (0..count).map(|p| wrap_rad(if target[p] { phase(p) } else { p as f64 }));
             Phasors { amplitude: vec![100.0; count], phase_rad: phase_rad.collect(), information: 7.0 }
         };
-        let mut usual = of(1, 1.0, 0.0);
+        let mut usual = of(1, 1.0, 0.0, NOISE_RAD);
         usual.unwrapped(&target);
-        usual.beside(&of(2, times, ALL_RAD), GEOMETRY, &target, ratio)
+        usual.beside(&of(2, times, ALL_RAD, noise_rad), GEOMETRY, &target, ratio)
     }
 
     #[test]
@@ -222,6 +234,14 @@ mod tests {
         }
     }
 
+    /// Delays that are hardly more than the noise are delays.
+    #[test]
+    fn weak_delays_are_told() {
+        let draws = Draws::of(3, 1).normal(GEOMETRY.pixels());
+        let pattern = |pixel: usize| 3.0 + 1.5 * NOISE_RAD * draws[pixel];
+        assert_eq!((said(pattern, 2.0, 2.0).0, said(pattern, 2.0, 1.0).0), (2.0, 1.0));
+    }
+
     /// A delay along the columns has a name: it is not taken for what pixels have; and without any pattern noise decides nothing.
     #[test]
     fn a_skew_is_left_to_be_found() {
@@ -229,6 +249,8 @@ mod tests {
             let skew = |pixel: usize| 3.0 + 0.02 * (pixel % GEOMETRY.width) as f64;
             assert_eq!((said(skew, ratio, ratio).0, said(skew, ratio, 1.0).0), (1.0, 1.0));
             assert_eq!(said(|_| 3.0, ratio, 1.0).0, 1.0);
+            // Nor does more noise than light lets expect, or what harmonics do there.
+            assert_eq!(said_in_noise(|_| 3.0, ratio, 1.0, 2.0 * NOISE_RAD).0, 1.0);
         }
     }
 
