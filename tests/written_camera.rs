@@ -16,7 +16,8 @@ const LIBRARY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/row-rippl
 /// What is simulated, and what of it must be found.
 const FOUND: [(&str, &str); 2] =
     [("fixed_point", "fixed_point:bits_cut=3"), ("row_ripple", "row_ripple:amplitude_dn=2")];
-const FOUND_TOO: [(&str, &str); 8] = [
+const FOUND_TOO: [(&str, &str); 9] = [
+    ("phase_step_errors", "phase_step_errors:setting_1_rad=0.01,setting_2_rad=-0.006"),
     ("clock_jitter", "clock_jitter:sigma_rad=0.01"),
     ("frame_timing_error", "frame_timing_error:relative=0.05"),
     ("multi_camera_interference", "multi_camera_interference:cosine_dn=2,beat_hz=1.37"),

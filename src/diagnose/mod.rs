@@ -37,6 +37,7 @@ pub use answering::answer::{
     Smallest,
 };
 pub use answering::camera::camera_with;
+pub use answering::common_part::CommonPart;
 pub use answering::next::ENOUGH_RHO;
 pub use answering::verdict::{Diagnosis, diagnose};
 pub use fitting::fit::Fit;

@@ -2,7 +2,7 @@
 
 use super::campaign::Campaign;
 use super::summary::Kind;
-use crate::diagnose::{Data, diagnose};
+use crate::diagnose::{CommonPart, Data, diagnose};
 use crate::frames::Geometry;
 use crate::physics::{Active, Effect};
 use crate::problem::Result;
@@ -115,13 +115,17 @@ impl Case {
     /// # Errors
     /// A campaign that cannot be made.
     pub fn run(&self, size: Geometry) -> Result<Outcome> {
-        let answer = diagnose(&self.data(size, Vec::new())?).answer;
+        let data = self.data(size, Vec::new())?;
+        let diagnosis = diagnose(&data);
+        let (answer, fit) = (&diagnosis.answer, &diagnosis.judgement.fit);
         let error = |concealed: &Concealed| {
             let Concealed { effect, number, values } = concealed;
             let row = answer.effects.iter().find(|row| row.name == effect.name)?;
-            let parameter = row.parameters.iter().find(|row| row.name == effect.parameters[*number].name)?;
-            (parameter.sigma > 0.0)
-                .then(|| (effect.name, (parameter.value - values[*number]) / parameter.sigma))
+            let name = effect.parameters[*number].name;
+            let parameter = row.parameters.iter().find(|row| row.name == name)?;
+            let common = CommonPart::of(&data, fit, effect.name);
+            let truth = common.map_or(values[*number], |common| common.true_without(fit, values, *number));
+            (parameter.sigma > 0.0).then(|| (effect.name, (parameter.value - truth) / parameter.sigma))
         };
         Ok(Outcome {
             verdict: answer.verdict,

@@ -1,5 +1,6 @@
 //! The camera as its next simulation should have it: with the effects that were found.
 
+use super::common_part::CommonPart;
 use super::effect_row::in_all;
 use crate::diagnose::fitting::fit::Fit;
 use crate::diagnose::fitting::noise::{Noise, ROUNDING_DN2};
@@ -39,11 +40,17 @@ pub fn camera_with(data: &Data, judgement: &Judgement) -> Camera {
         if (Active { effect: piece.effect, values: piece.values.clone() }).is_off() {
             continue;
         }
+        // A phase of all would be taken for a distance by the next simulation.
+        let common = CommonPart::of(data, &judgement.fit, piece.effect.name);
+        let values = common.map_or_else(
+            || piece.values.clone(),
+            |common| common.values_without(&judgement.fit, number, piece),
+        );
         let values: Vec<String> = piece
             .effect
             .parameters
             .iter()
-            .zip(&piece.values)
+            .zip(&values)
             .filter(|(parameter, value)| **value != parameter.off)
             .map(|(parameter, value)| format!("{}={value:?}", parameter.name))
             .collect();

@@ -1,6 +1,7 @@
 //! A named effect as other programs read it.
 
 use super::answer::{EffectRow, EvidenceRow, ParameterRow};
+use super::common_part::CommonPart;
 use crate::diagnose::fitting::bounds::is_at_bound;
 use crate::diagnose::forms::other_camera::{OTHER_CAMERA, spot_sigmas};
 use crate::diagnose::forms::other_choices;
@@ -20,6 +21,7 @@ use crate::recording::effect_name;
 /// The row of what is `named`.
 pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRow {
     let images = if named.name == FLICKER { images(data, &judgement.fit) } else { Vec::new() };
+    let common = CommonPart::of(data, &judgement.fit, named.name);
     let sentence = data.effect(named.name).map_or("", |effect| effect.sentence);
     let names: Vec<&str> = judgement.named.iter().map(|named| named.name).collect();
     let mut also_possible: Vec<String> = Vec::new();
@@ -37,15 +39,16 @@ pub fn effect_row(data: &Data, judgement: &Judgement, named: &Named) -> EffectRo
     EffectRow {
         name: named.name,
         sentence: format!(
-            "{sentence}{}{}{}",
+            "{sentence}{}{}{}{}",
             also_seen(&images),
             says_of_settings(&judgement.fit.pieces, named.name),
+            common.as_ref().map_or_else(String::new, CommonPart::in_words),
             beside_included(data, &judgement.fit.pieces, named.name)
         ),
         probability,
         alias_risk: alias * probability,
         also_possible,
-        parameters: parameters(data, judgement, named.name, &images),
+        parameters: parameters(data, judgement, named.name, &images, common.as_ref()),
         evidence: EvidenceRow {
             delta_chi2: chi2,
             degrees_of_freedom,
@@ -80,8 +83,14 @@ fn beside_included(data: &Data, pieces: &[Piece], name: &str) -> &'static str {
     }
 }
 
-/// The fitted values of the effect called `name`, piece by piece; of a line, not better known than which of its `images` it is.
-fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) -> Vec<ParameterRow> {
+/// The fitted values of the effect called `name`, piece by piece, without what they have in `common`; of a line, not better known than which of its `images` it is.
+fn parameters(
+    data: &Data,
+    judgement: &Judgement,
+    name: &str,
+    images: &[Image],
+    common: Option<&CommonPart>,
+) -> Vec<ParameterRow> {
     let fit = &judgement.fit;
     let of = |piece: &&Piece| piece.effect.name == name;
     let several = fit.pieces.iter().filter(of).count() > 1;
@@ -92,9 +101,12 @@ fn parameters(data: &Data, judgement: &Judgement, name: &str, images: &[Image]) 
         let suffix = if several { format!(" ({})", takes.join(", ")) } else { String::new() };
         for (parameter, known) in piece.effect.parameters.iter().enumerate() {
             let column = fit.column_of(number, parameter);
-            let sigma = column.map_or(0.0, |column| fit.sigma(column));
-            let sigma = sigma.hypot(spread(images, fit, number, parameter)).hypot(of_choices[parameter]);
             let value = piece.values[parameter];
+            let (value, sigma) = column.map_or((value, 0.0), |column| {
+                let without = common.and_then(|common| common.without(fit, column, value));
+                without.unwrap_or((value, fit.sigma(column)))
+            });
+            let sigma = sigma.hypot(spread(images, fit, number, parameter)).hypot(of_choices[parameter]);
             let in_all = piece.in_all(parameter);
             let at_bound = column.is_some() && is_at_bound(known, in_all, fit.pixels.full_scale_dn);
             // Nor is a shape said of what has none.

@@ -2,6 +2,7 @@
 
 pub mod answer;
 pub mod camera;
+pub mod common_part;
 pub mod effect_row;
 pub mod next;
 pub mod power_at_random;
