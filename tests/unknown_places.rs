@@ -136,6 +136,18 @@ fn a_source_that_ripples_is_heard_and_no_lamp() {
     is_located(&verdict, "time_s", &["light, a tone of 17.10 Hz", "102.90 Hz"]);
 }
 
+/// The driver gives other light at each phase of the shifter, twice a turn: that is no error of single settings, nor another camera.
+#[test]
+fn light_that_goes_with_the_commanded_phase_is_neither_steps_nor_another_light() {
+    let verdict = verdict_of("four-rail,four-sweep,wdft-sweep", |campaign| {
+        with_more_light(campaign, |recording, set, frame| {
+            let commanded_rad = recording.sets[set].phase_offset_rad + recording.steps_rad[frame];
+            4e-3 * (2.0 * commanded_rad + 0.7).cos()
+        });
+    });
+    is_located(&verdict, "phase", &["gain, 2 cycles a turn of the commanded phase"]);
+}
+
 /// A lamp that is no filament has an overtone: it is the same lamp.
 #[test]
 fn a_lamp_may_have_an_overtone() {

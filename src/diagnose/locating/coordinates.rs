@@ -136,13 +136,17 @@ const TIMES: usize = 8;
 const LIGHTS: usize = 10;
 const CODES: usize = 14;
 const CYCLES: usize = 6;
-/// Columns of the phase coordinate that go with the range's phase; those after them go with the phase offset that was set.
+/// Columns of the phase coordinate that go with the range's phase; those after them go with the phase that was set.
 pub const OF_RANGE: usize = 6 * CYCLES;
 /// Cycles a turn of the phase offset at most.
 const OFFSET_CYCLES: usize = 4;
 /// Functions of the phase offset: cosine and sine of each.
-const OF_OFFSET: usize = 2 * OFFSET_CYCLES;
-/// Functions of the phase offset that are less are zero: offsets are written with six digits.
+pub const OF_OFFSET: usize = 2 * OFFSET_CYCLES;
+/// Cycles a turn of a frame's commanded phase at most: what a shifter does to the light, the read-out or the gate goes with that, where it is not the frame's number in another word.
+const COMMANDED_CYCLES: usize = 2;
+/// Functions of what is commanded: of the phase offset, and after these of the whole phase.
+const OF_COMMANDED: usize = OF_OFFSET + 2 * COMMANDED_CYCLES;
+/// Functions of what is commanded that are less are zero: offsets are written with six digits.
 const LEAST_OF_OFFSET: f64 = 1e-5;
 /// A pixel's row or column matters to its own numbers only by something that changes from frame to frame.
 const CHANGES: [&str; 4] = ["with velocity", "with the frame of a set", "with distance", "with time"];
@@ -151,7 +155,7 @@ const CHANGES: [&str; 4] = ["with velocity", "with the frame of a set", "with di
 pub const COORDINATES: [Coordinate; 11] = [
     Coordinate {
         name: "phase",
-        columns: |_| OF_RANGE + MODES.len() * OF_OFFSET,
+        columns: |_| OF_RANGE + MODES.len() * OF_COMMANDED,
         fill: phase,
         shape: phase_shape,
     },
@@ -269,7 +273,7 @@ fn times(per: &[f64], numbers: &[f64]) -> Vec<f64> {
     per.iter().zip(numbers).map(|(per, number)| per * number).collect()
 }
 
-/// Phase: of the range (not of the offset) in cycles a turn as phase and gain errors, and of the waveform; and the phase offset, whatever the range.
+/// Phase: of the range (not of the offset) in cycles a turn as phase and gain errors, and of the waveform; and the phase offset, or the commanded phase, whatever the range.
 fn phase(view: &View) -> Acting {
     let moment = view.moment;
     let position_m = moment.commanded_m();
@@ -296,11 +300,15 @@ fn phase(view: &View) -> Acting {
             columns[at + 5][pixel] = wave_sine * amplitude[pixel];
         }
     }
-    let turned = (1..=OFFSET_CYCLES).map(|cycles| cos_sin(cycles as f64 * moment.offset_rad));
+    let commanded_rad = moment.offset_rad + moment.step_rad;
+    let of_offset = (1..=OFFSET_CYCLES).map(|cycles| cycles as f64 * moment.offset_rad);
+    let of_phase = (1..=COMMANDED_CYCLES).map(|cycles| cycles as f64 * commanded_rad);
+    let of_phase = of_phase.filter(|_| view.ranges.has_offsets);
+    let turned = of_offset.chain(of_phase).map(cos_sin);
     // Of offsets that divide the turn evenly, what rounding leaves of a zero is one.
     let of = |value: f64| if value.abs() < LEAST_OF_OFFSET { 0.0 } else { value };
     let functions: Vec<_> = turned.flat_map(|(cosine, sine)| [of(cosine), of(sine)]).enumerate().collect();
-    by_frame_after(each(columns), OF_RANGE, view, OF_OFFSET, &functions)
+    by_frame_after(each(columns), OF_RANGE, view, OF_COMMANDED, &functions)
 }
 
 fn further((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> (f64, f64) {
@@ -309,7 +317,10 @@ fn further((c, s): (f64, f64), (cosine, sine): (f64, f64)) -> (f64, f64) {
 
 fn phase_shape(_: &Ranges, column: usize) -> String {
     if let Some(column) = column.checked_sub(OF_RANGE) {
-        return mode_shape(OF_OFFSET, column, |n| format!("{} cycles a turn of the phase offset", n / 2 + 1));
+        return mode_shape(OF_COMMANDED, column, |n| match n.checked_sub(OF_OFFSET) {
+            None => format!("{} cycles a turn of the phase offset", n / 2 + 1),
+            Some(n) => format!("{} cycles a turn of the commanded phase", n / 2 + 1),
+        });
     }
     let cycles = column / 6 + 1;
     match column % 6 {

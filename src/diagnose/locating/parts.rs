@@ -1,6 +1,6 @@
 //! Parts of a coordinate's columns: one way of being off alone may say it by fewer numbers than all.
 
-use super::coordinates::{MODES, OF_RANGE};
+use super::coordinates::{MODES, OF_OFFSET, OF_RANGE};
 use super::line_ways::LINE_WAYS;
 use super::ranges::Ranges;
 use super::velocities::OF_RUN;
@@ -11,11 +11,14 @@ type Parts = fn(&Ranges, usize) -> Vec<Vec<usize>>;
 /// Parts of those coordinates that have any.
 const PARTS: [(&str, Parts); 9] = [
     ("phase", |ranges, size| {
-        // Errors of the phase, of the offset, of the waveform; and what goes with the phase offset that was set.
+        // Errors of the phase, of the offset, of the waveform; and what goes with the phase offset that was set, or with the commanded phase.
         let way = |way: usize| (0..OF_RANGE).filter(|column| column % 6 / 2 == way).collect();
-        let of_offset = modes(ranges, size - OF_RANGE);
-        let of_offset = of_offset.into_iter().map(|part| part.into_iter().map(|n| OF_RANGE + n).collect());
-        (0..3).map(way).chain(of_offset).collect()
+        let set = modes(ranges, size - OF_RANGE).into_iter().flat_map(|part| {
+            let mut of_offset: Vec<usize> = part.into_iter().map(|n| OF_RANGE + n).collect();
+            let of_frame = of_offset.split_off(OF_OFFSET);
+            [of_offset, of_frame]
+        });
+        (0..3).map(way).chain(set).collect()
     }),
     ("position_m", modes),
     ("velocity_m_s", |ranges, size| {
@@ -101,6 +104,7 @@ mod tests {
             duration_s: vec![1.0; frames.len()],
             has_places: true,
             has_sets: true,
+            has_offsets: true,
             frame_numbers: frames.iter().map(|(frames, first)| first + frames).max().unwrap_or(0),
             frames,
             ln_amplitude: (0.0, 1.0),
@@ -120,8 +124,9 @@ mod tests {
         }
         let phase = parts("phase", &ranges, of_phase);
         assert_eq!((&phase[1][..4], phase[3][0]), (&[2, 3, 8, 9][..], 36));
-        // Offset, gain, phase and contrast have each a cosine and a sine of one to four cycles.
-        assert_eq!(phase[3..].iter().map(Vec::len).collect::<Vec<_>>(), [8; 4]);
+        // Offset, gain, phase and contrast have each a cosine and a sine of one to four cycles of the offset, and one or two of the commanded phase.
+        assert_eq!(phase[3..].iter().map(Vec::len).collect::<Vec<_>>(), [8, 4].repeat(4));
+        assert_eq!((phase[4][0], phase[5][0]), (44, 48));
         // A place that is off is a part by itself, in either way.
         let of_velocity = parts("velocity_m_s", &ranges, OF_RUN + 2);
         assert_eq!(of_velocity[3..], [(15..20).collect(), vec![20], vec![21]]);

@@ -21,6 +21,8 @@ pub struct Ranges {
     pub has_places: bool,
     /// Whether a recording has several sets.
     pub has_sets: bool,
+    /// Whether a recording has several phase offsets: else the commanded phase is the frame's number in another word.
+    pub has_offsets: bool,
     /// Greatest speed, m/s.
     pub speed_m_s: f64,
     /// Least and greatest velocity, m/s.
@@ -71,6 +73,11 @@ impl Ranges {
             position_m,
             has_places: places_m.0 < places_m.1,
             has_sets: moments().any(|moment| moment.set > 0),
+            has_offsets: data.takes.iter().any(|take| {
+                let mut offsets = take.moments.iter().map(|moment| moment.offset_rad);
+                let first = offsets.next();
+                offsets.any(|offset| Some(offset) != first)
+            }),
             speed_m_s: moments().map(|moment| moment.velocity_m_s.abs()).fold(0.0, f64::max),
             velocity_m_s: least_greatest(&mut moments().map(|moment| moment.velocity_m_s)),
             rows: ways(&pixels.target, geometry.height, alternates, |pixel| geometry.row_column(pixel).0),
