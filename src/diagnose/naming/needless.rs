@@ -10,8 +10,8 @@ use crate::diagnose::reading::data::Data;
 use crate::diagnose::tangents::pieces::Piece;
 use std::collections::BTreeSet;
 
-/// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first.
-pub fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut Vec<Named>) {
+/// Takes out of `current`, and of what is `named`, what is not needed beside the others, the least needed first. What is left alone explains all that the `baseline` left.
+pub fn drop_needless(data: &Data, noise: Noise, baseline: &Fit, current: &mut Fit, named: &mut Vec<Named>) {
     while named.len() > 1 {
         let without = |number: usize| {
             let pieces = current.pieces_without(named[number].name);
@@ -29,6 +29,9 @@ pub fn drop_needless(data: &Data, noise: Noise, current: &mut Fit, named: &mut V
         let Some((number, _, left)) = least.filter(|least| least.1 < NEEDED_NATS) else { return };
         *current = left;
         named.remove(number);
+        if let [only] = &mut named[..] {
+            only.score.0 = only.score.0.max(baseline.counted() - current.counted());
+        }
     }
 }
 
@@ -74,6 +77,31 @@ mod tests {
         let fitted = without_bounded(&data, fitted, noise, &mut named);
         assert_eq!(fitted.pieces.len(), named.len());
         named.iter().map(|named| named.name).collect()
+    }
+
+    /// Taps that were named before the scale of the steps, and are not needed beside it.
+    #[test]
+    fn what_is_left_alone_explains_all() {
+        let size = Geometry { width: 8, height: 6 };
+        let effects = [injection("phase_step_scale:relative=0.01").unwrap()];
+        let recordings = taken(size, 3, &effects, &["four-rail", "wdft-rail"]).unwrap();
+        let data = Data::of(&recordings, Vec::new()).unwrap();
+        let noise = stated_noise(&data);
+        let pieces = vec![Piece::off(TAPS, &[0, 1], &[0, 1]), Piece::off(SCALE, &[0], &[0, 1])];
+        let baseline = unfitted(&data, noise);
+        let mut current = fit(&data, Some(&baseline), pieces, noise, &|_| true);
+        let of = |(name, score)| Named {
+            name,
+            ln_bayes: 1e3,
+            score: (score, 1),
+            rivals: Vec::new(),
+            is_trusted: false,
+        };
+        let mut named = [(TAPS, 150.0), (SCALE, 20.0)].map(of).to_vec();
+        drop_needless(&data, noise, &baseline, &mut current, &mut named);
+        let [only] = &named[..] else { panic!("{named:?}") };
+        assert_eq!((only.name, only.score.0), (SCALE, baseline.counted() - current.counted()));
+        assert!(only.score.0 > 100.0, "{}", only.score.0);
     }
 
     #[test]

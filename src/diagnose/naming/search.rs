@@ -151,7 +151,7 @@ impl<'a> Search<'a> {
     /// Leaves what is needed beside the others, a drift in the form that it has.
     fn leave_needed(&mut self) {
         uneven(self.data, self.noise, &mut self.current, &mut self.named);
-        drop_needless(self.data, self.noise, &mut self.current, &mut self.named);
+        drop_needless(self.data, self.noise, &self.baseline, &mut self.current, &mut self.named);
     }
 
     /// Puts a simpler effect in the place of one that has more numbers than it needs, near the baseline; whether there was one.
