@@ -67,24 +67,23 @@ fn ways(fitted: &Fit, name: &'static str) -> Vec<Entrant> {
 }
 
 /// What is `fitted`, or the same with an effect of which `is_new` in a form that is seldom, where that fits clearly better by no more numbers.
-pub fn refined(data: &Data, mut fitted: Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Fit {
+pub fn refined(data: &Data, fitted: Fit, noise: Noise, is_new: &dyn Fn(&str) -> bool) -> Fit {
+    let chosen = |mut fitted: Fit| {
+        let mut is_other = false;
+        while let Some(better) = better(data, &fitted, noise, is_new) {
+            (fitted, is_other) = (better, true);
+        }
+        (fitted, is_other)
+    };
     // What differs over the image may look like a wall on one side.
-    let uneven = is_new(OF_WALLS).then(|| with_slopes(data, &fitted, noise)).flatten();
-    let mut is_other = false;
-    while let Some(better) = better(data, &fitted, noise, is_new) {
-        (fitted, is_other) = (better, true);
-    }
-    if let Some(mut uneven) = uneven {
-        while let Some(better) = better(data, &uneven, noise, is_new) {
-            uneven = better;
-        }
-        if uneven.cost() < fitted.cost() {
-            (fitted, is_other) = (uneven, false);
-        }
-    }
-    if is_other && is_new(OF_WALLS) {
-        fitted = with_slopes(data, &fitted, noise).unwrap_or(fitted);
-    }
+    let uneven =
+        is_new(OF_WALLS).then(|| with_slopes(data, &fitted, noise)).flatten().map(|uneven| chosen(uneven).0);
+    let (even, is_other) = chosen(fitted);
+    let mut fitted = match uneven.filter(|uneven| uneven.cost() < even.cost()) {
+        Some(uneven) => uneven,
+        None if is_other && is_new(OF_WALLS) => with_slopes(data, &even, noise).unwrap_or(even),
+        None => even,
+    };
     if is_new(OF_CODES) {
         fitted = with_bits(data, fitted, noise);
     }
